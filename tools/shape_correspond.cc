@@ -1,10 +1,13 @@
 // Fits a template onto another body and maps the two surfaces onto each other.
 
+#include <filesystem>
+
 #include <gflags/gflags.h>
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/extension.h>
 #include <shapespace/correspondence/correspondence.h>
+#include <shapespace/correspondence/correspondence_page.h>
 #include <shapespace/correspondence/correspondence_picture.h>
 #include <shapespace/files/write.h>
 #include <shapespace/output/frames.h>
@@ -18,12 +21,13 @@
 #include "support/stdin_mesh.h"
 #include "support/summary.h"
 #include "support/tool.h"
+#include "viewer/page.h"
 
-DEFINE_string(
-    output, "fitted.obj,map.txt,check.png",
-    "files to write, separated by commas: .obj, .ply, .off or .stl (the fitted "
-    "template), .txt (the map in both directions), .png (a picture for judging it); - writes the "
-    "fitted template to stdout, as PLY");
+DEFINE_string(output, "fitted.obj,map.txt,check.png",
+              "files to write, separated by commas: .obj, .ply, .off or .stl (the fitted "
+              "template), .txt (the map in both directions), .png (a picture for judging it), "
+              ".html (a page for "
+              "that, on which markers are mended); - writes the fitted template to stdout, as PLY");
 DEFINE_bool(allow_nonmanifold, false,
             "accept meshes with non-manifold edges or vertices, or inconsistent winding");
 DEFINE_bool(open_seams, false,
@@ -40,10 +44,12 @@ std::vector<std::string> Outputs() {
   for (const std::string& output : Split(FLAGS_output)) {
     if (output.empty()) continue;
     const std::string extension = internal::FileExtension(output);
-    if (!IsMeshOrStdout(output) && extension != ".txt" && extension != ".png") {
+    if (!IsMeshOrStdout(output) && extension != ".txt" && extension != ".png" &&
+        extension != ".html") {
       throw UsageError("--output " + output +
-                       ": must end in .obj, .ply, .off, .stl, .txt or .png, or be -");
+                       ": must end in .obj, .ply, .off, .stl, .txt, .png or .html, or be -");
     }
+    if (extension == ".html") CheckHasViewer();
     CheckCanBeWritten(output);
     outputs.push_back(output);
   }
@@ -63,6 +69,11 @@ Poses ReadMesh(const std::string& file) {
   return mesh;
 }
 
+// A file's name without its folder, because a page is passed on to others.
+std::string NameOnPage(const std::string& file) {
+  return file == "-" ? "stdin" : std::filesystem::path(file).filename().string();
+}
+
 void Run(const std::vector<std::string>& files) {
   if (files.size() != 2) throw UsageError("name two meshes: the template and the target");
   std::vector<std::string> inputs;
@@ -70,8 +81,7 @@ void Run(const std::vector<std::string>& files) {
   inputs.insert(inputs.end(), files.begin(), files.end());
   const CorrespondenceOptions options = CorrespondenceFromFlags();
   const std::vector<std::string> outputs = Outputs();
-  CheckNothingIsOverwritten(inputs,
-                            {{"output", outputs}, MarkersOutFromFlag(), ReportFromFlag()});
+  CheckNothingIsOverwritten(inputs, {{"output", outputs}, MarkersOutFromFlag(), ReportFromFlag()});
   const Poses first = ReadMesh(files[0]), second = ReadMesh(files[1]);
   std::vector<CorrespondenceMarker> markers;
   if (!FLAGS_markers.empty()) markers = ReadMarkersAndTell(first, second);
@@ -88,6 +98,13 @@ void Run(const std::vector<std::string>& files) {
       WritePng(output,
                RenderCorrespondence(*first.connectivity, first.shapes[0], *second.connectivity,
                                     second.shapes[0], markers, result));
+    } else if (extension == ".html") {
+      auto [source, target] =
+          PageOf(first.connectivity, first.shapes[0], NameOnPage(files[0]), second.connectivity,
+                 second.shapes[0], NameOnPage(files[1]), result);
+      source.file = files[0];
+      target.file = files[1];
+      WritePage(output, std::string(ViewerPage()), {source, target});
     } else {
       WriteMeshAndTell(output, result.fitted,
                        FrameSoup(*first.connectivity, first.soup.appearance));
@@ -109,6 +126,7 @@ int main(int argc, char** argv) {
       {"shape-correspond",
        "a template fitted onto another body of any connectivity, and the map between them",
        R"(  shape-correspond cat.obj lion.obj --output fitted.obj,map.txt,check.png
+  shape-correspond cat.obj lion.obj --output check.html      both bodies, colours and markers
   shape-correspond cat.obj lion.obj --markers cat_lion.txt --output fitted.obj,check.png
 
 Without markers maps are found from both surfaces, and the one that deforms the template least is
@@ -116,8 +134,8 @@ taken; the report says how sure that is. Each line of a file of markers names a 
 template and the corresponding one of the target: one or two settle what is left and right, twenty,
 at the ends of limbs and at joints, guide the fit alone. Two files of landmarks, as 3D Slicer saves
 them, serve as well: --markers cat.fcsv,lion.fcsv. The fitted template has the template's faces, so
-every other tool accepts it together with the template's poses. Check the picture before you rely on
-the map.
+every other tool accepts it together with the template's poses. Check the picture or the page before
+you rely on the map; the page has the markers, of which it saves those that are mended.
 
 A fit that does not converge is reported; its outputs are written, and the exit code is 0, or 1
 with --strict.)",

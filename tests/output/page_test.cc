@@ -254,10 +254,11 @@ TEST_F(PageTest, KeepsASpace) {
 
 TEST_F(PageTest, KeepsAMesh) {
   const ShapeFamily tube = MakeBody("tube", 300);
-  const PageMesh mesh{tube.connectivity, tube.pose(70), {}, "tube.obj", "some/tube.obj"};
+  const PageMesh mesh{tube.connectivity, tube.pose(70), {}, "tube.obj", "some/tube.obj", {7, 3}};
   const DecodedScene scene = Write(mesh);
   EXPECT_EQ(scene.header["kind"], "mesh");
   EXPECT_EQ(scene.header["file"], "some/tube.obj");
+  EXPECT_EQ(scene.header["markers"], (std::vector<int>{7, 3}));
   ASSERT_EQ(scene.steps.size(), 1u);
   EXPECT_LE((scene.Shape(0) - mesh.shape).cwiseAbs().maxCoeff(), 0.5001 * scene.Step());
 }
@@ -341,6 +342,12 @@ TEST_F(PageTest, RefusesWhatIsNotValid) {
   };
   refused(PagePath{&path, "bad"});
   refused(PageMesh{nullptr, Shape(), {}, "bad"});
+  refused(PageMesh{path.metric->connectivity, path.shapes[0], {}, "bad", {-1}});
+  refused(PageMesh{path.metric->connectivity,
+                   path.shapes[0],
+                   {},
+                   "bad",
+                   {path.metric->connectivity->NumVertices()}});
   refused(PageMesh{path.metric->connectivity, Shape::Zero(3, 1), {}, "bad"});
   PageSpace space = TubeSpace();
   space.name = "bad";

@@ -6,6 +6,7 @@
 
 #include <shapespace/files/read.h>
 
+#include "output/read_page.h"
 #include "tools/run.h"
 
 namespace shapespace {
@@ -219,6 +220,49 @@ TEST_F(CorrespondTest, WritesTheMarkersThatItFinds) {
   const json again = json::parse(Content(Path("again.json")));
   EXPECT_EQ(again["markers"], report["markers"]);
   EXPECT_TRUE(again["candidates"].empty());
+}
+
+// The page shows both bodies, numbered as their files, in colours that belong together, and has the
+// markers that --markers_out writes.
+TEST_F(CorrespondTest, WritesAPageOfBothBodies) {
+  MakeBodies();
+  const Outcome outcome = Run("shape-correspond", {"a0.obj", "b0.obj", "--output", "check.html",
+                                                   "--markers_out", "found.txt"});
+  if (outcome.code == 1) {
+    ExpectContains(outcome.err, "./dev viewer");
+    GTEST_SKIP() << "built without the viewer's page";
+  }
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const std::vector<PageElement> elements = ReadPage(Path("check.html"));
+  ASSERT_EQ(elements.size(), 2u);
+  const DecodedScene source(elements[0].bytes), target(elements[1].bytes);
+  EXPECT_EQ(source.header["name"], "a0.obj");
+  EXPECT_EQ(target.header["name"], "b0.obj");
+  std::string found;
+  for (size_t k = 0; k < source.header["markers"].size(); ++k) {
+    found += std::to_string(source.header["markers"][k].get<int>() + 1) + ' ' +
+             std::to_string(target.header["markers"].at(k).get<int>() + 1) + '\n';
+  }
+  const std::string written = Content(Path("found.txt"));
+  EXPECT_EQ(found, written.substr(written.find_first_of("0123456789")));
+  // The two are one animal, so that places that are near each other have nearly the same colour.
+  const Shape a = Vertices("a0.obj"), b = Vertices("b0.obj");
+  const auto colours_of = [](const DecodedScene& scene) {
+    Eigen::MatrixXd colours(3, scene.vertices);
+    for (Eigen::Index k = 0; k < colours.size(); ++k) {
+      colours.data()[k] = static_cast<unsigned char>(scene.colours.at(k));
+    }
+    return colours;
+  };
+  const Eigen::MatrixXd given = colours_of(source), carried = colours_of(target);
+  double off = 0, apart = 0;
+  for (Eigen::Index v = 0; v < b.cols(); ++v) {
+    Eigen::Index near = 0;
+    (a.colwise() - b.col(v)).colwise().squaredNorm().minCoeff(&near);
+    off += (carried.col(v) - given.col(near)).norm();
+    apart += (carried.col(v) - carried.col(0)).norm();
+  }
+  EXPECT_LT(off, 0.1 * apart);
 }
 
 TEST_F(CorrespondTest, NamesTheLineOfAMarkerAndWhatIsWrongWithIt) {

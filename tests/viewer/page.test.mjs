@@ -44,7 +44,7 @@ function redAndBlue(page, picture) {
 }
 
 describe('every page', () => {
-  for (const name of ['walk-path', 'two', 'space', 'herd', 'markers', 'mesh']) {
+  for (const name of ['walk-path', 'two', 'space', 'herd', 'markers', 'fit', 'mesh']) {
     for (const width of [360, 768, 1280]) {
       for (const colorScheme of ['light', 'dark']) {
         test(`${name}, ${width} px, ${colorScheme}`, async () => {
@@ -620,7 +620,7 @@ describe('picking', () => {
     await open('markers', {}, async (page) => {
       const { x, y, width, height } = await page.locator('#canvas').boundingBox();
       await page.locator('#pick-save').click();
-      assert.match(await page.locator('#status').textContent(), /at least three/);
+      assert.match(await page.locator('#status').textContent(), /marker/);
       // Both have one outline and one camera, so the same place in both halves is the same on both.
       for (const u of [0.12, 0.2, 0.28, 0.36, 0.44]) {
         for (const v of [0.3, 0.45, 0.55, 0.68]) {
@@ -649,6 +649,20 @@ describe('picking', () => {
       await follow(page);
       const fitted = vertices('fitted.obj');
       for (const [a, b] of pairs) assert.ok(distance(fitted[a - 1], target[b - 1]) < 1e-6);
+    });
+  });
+
+  test('the markers of a fit are there, can be mended, and are saved', async () => {
+    await open('fit', {}, async (page) => {
+      const pairs = (text) => text.split('\n').filter((line) => /^\d/.test(line));
+      const found = pairs(readFileSync(`${folder}/found.txt`, 'utf8'));
+      assert.equal(await rows(page).count(), found.length);
+      const numbers = await page.locator('#labels text').allTextContents();
+      assert.deepEqual(numbers, [1, 2].flatMap(() => found.map((_, i) => String(i + 1))));
+      if (pictures) await page.screenshot({ path: `${pictures}/fit.png` });
+      assert.deepEqual(pairs(await keep(page, 'markers.txt')), found);
+      await rows(page).first().getByRole('button').click();
+      assert.deepEqual(pairs(await keep(page, 'markers.txt')), found.slice(1));
     });
   });
 

@@ -68,6 +68,8 @@ EOF
   "$bin/shape-body" quadruped --pose stand --triangles 5000 --output 'lion/body%d.obj'
   "$bin/shape-view" 'small cat/body0.obj' lion/body0.obj --output markers.html
   "$bin/shape-view" animal0.obj --output mesh.html
+  "$bin/shape-body" quadruped --pose stride --proportions heavy --triangles 4000 --output 'other%d.obj'
+  "$bin/shape-correspond" template0.obj other0.obj --output fit.html --markers_out found.txt
   SHAPESPACE_PAGE_DIR=$PWD SHAPESPACE_PAGE_TEMPLATE=$root/tools/viewer/dist/viewer.html \
     "$root/build/release/tests/output/output_test" --gtest_filter='PageTest.WritesSpaces*'
   cp "$root/tools/viewer/dist/viewer.html" empty.html

@@ -90,6 +90,8 @@ struct PageMesh {
   Eigen::MatrixXd vertex_colours;  ///< as in an Appearance; may be empty
   std::string name;
   std::string file = {};  ///< with its folder, for command lines on the page
+  /// Vertices that are picked at first: those of two meshes with the same place here are a marker.
+  std::vector<int> markers = {};
 };
 
 using PageScene = std::variant<PagePath, PageGlb, PageSpace, PageModes, PageMesh>;

@@ -184,6 +184,7 @@ function checkHeader(header: any) {
     check(header.scalars.length === 0 || header.intercept.length === modes);
   } else if (header.kind === 'mesh') {
     check(header.shapes === 1);
+    check(header.markers.every((v: unknown) => isCount(v) && (v as number) < header.vertices));
   } else {
     check(header.names.length > 0 && header.points.length === header.shapes);
     check(header.names.length + header.parents.length === header.shapes);

@@ -26,6 +26,23 @@ export function vertexOnRay(
   return nearest;
 }
 
+/** For each of some vertices, where its triangles begin in `triangles`. */
+export function trianglesAt({ triangles }: Body, vertices: number[]): Map<number, number[]> {
+  const found = new Map(vertices.map((vertex): [number, number[]] => [vertex, []]));
+  triangles.forEach((vertex, i) => found.get(vertex)?.push(i - (i % 3)));
+  return found;
+}
+
+/** Whether triangles, seen at corners of the canvas, show more of their backs than of their fronts. */
+export function showBack(corners: [number, number][]): boolean {
+  let twice = 0;
+  for (let i = 0; i < corners.length; i += 3) {
+    const [[ax, ay], [bx, by], [cx, cy]] = corners.slice(i, i + 3);
+    twice += (bx - ax) * (cy - ay) - (cx - ax) * (by - ay);
+  }
+  return twice > 0; // y points down
+}
+
 /** The vertices that are seen inside a polygon of the canvas, also those behind others. */
 export function verticesInside(
   positions: Float32Array,

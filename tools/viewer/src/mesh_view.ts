@@ -4,6 +4,7 @@ import { byId, showNames, themeValue } from './dom';
 import { ofMarkers, ofMesh } from './explanations';
 import { explain } from './help';
 import { startOptions, stem } from './options';
+import type { Marker } from './picked_files';
 import { Picking } from './picking';
 import { Player } from './player';
 import type { MeshScene } from './scene_data';
@@ -15,6 +16,11 @@ function facts({ vertices, triangles }: MeshScene): string {
     `${vertices.toLocaleString('en')} vertices, ` +
     `${(triangles.length / 3).toLocaleString('en')} triangles`
   );
+}
+
+function markersOf([first, second]: MeshScene[]): Marker[] {
+  if (!second) return [];
+  return first.markers.slice(0, second.markers.length).map((v, i) => [v, second.markers[i]]);
 }
 
 export function showMeshes(scenes: MeshScene[]): void {
@@ -33,7 +39,8 @@ export function showMeshes(scenes: MeshScene[]): void {
   startOptions(stage, meshes, still, names.map(stem).join('-'));
   // A click finds a triangle, which graphs do not have.
   if (scenes.every(({ triangles }) => triangles.length > 0)) {
-    new Picking(stage, meshes, scenes.map(({ file, name }) => file || name), 0);
+    const files = scenes.map(({ file, name }) => file || name);
+    new Picking(stage, meshes, files, 0, markersOf(scenes));
     byId('options').prepend(byId('pick-panel'));
   }
   const all = scenes.map((scene) => `${scene.name}: ${facts(scene)}.`).join(' ');

@@ -3,7 +3,7 @@ import { Vector3 } from 'three';
 import type { BlendedMesh } from './blended_mesh';
 import { quoted, startCopy } from './command_line';
 import { byId, svg, tell } from './dom';
-import { vertexOnRay, verticesInside } from './hit';
+import { showBack, trianglesAt, vertexOnRay, verticesInside } from './hit';
 import {
   handlesText,
   markersText,
@@ -41,16 +41,19 @@ export class Picking {
   private picked: Picked;
   private readonly before: Picked[] = [];
   private outline: [number, number][] | null = null;
+  /** Of each body, where the triangles at its markers begin. */
+  private around: Map<number, number[]>[] = [];
   private readonly labels = byId<HTMLElement>('labels');
 
-  /** `poses` is the number of a path's poses, 0 for a mesh. */
+  /** `poses` is the number of a path's poses, 0 for a mesh; `markers` are picked already. */
   constructor(
     private readonly stage: Stage,
     private readonly meshes: BlendedMesh[],
     private readonly files: string[],
     private readonly poses: number,
+    markers: Marker[] = [],
   ) {
-    this.picked = { markers: [], pending: [null, null], parts: [this.newPart(1)], current: 0 };
+    this.picked = { markers, pending: [null, null], parts: [this.newPart(1)], current: 0 };
     const modes: Mode[] =
       meshes.length > 1
         ? ['markers']
@@ -225,6 +228,12 @@ export class Picking {
       }
       mesh.mark(marked);
     });
+    this.around = this.meshes.map(({ body }, i) =>
+      trianglesAt(
+        body,
+        this.markersOf(i).map(([, vertex]) => vertex),
+      ),
+    );
     byId('picked').replaceChildren(
       ...(this.mode === 'markers' ? this.markerRows() : this.partRows()),
     );
@@ -327,7 +336,7 @@ export class Picking {
     return label;
   }
 
-  /** Numbers beside markers, and the outline that is being drawn. */
+  /** Numbers beside markers, pale on the side that is not seen, and the outline that is being drawn. */
   private placeLabels(): void {
     this.labels.replaceChildren();
     if (this.outline) {
@@ -337,11 +346,16 @@ export class Picking {
     const point = new Vector3();
     this.meshes.forEach((mesh, body) => {
       const project = this.stage.projector(body);
-      const { shapes } = mesh.body;
+      const { shapes, triangles } = mesh.body;
+      const seen = (vertex: number) =>
+        project(point.fromArray(shapes[0], 4 * vertex).divideScalar(65535));
       for (const [number, vertex] of this.markersOf(body)) {
-        point.fromArray(shapes[0], 4 * vertex).divideScalar(65535);
-        const [x, y] = project(point);
-        svg('text', { x: x + 7, y: y - 7 }, this.labels).textContent = String(number);
+        const [x, y] = seen(vertex);
+        const corners = this.around[body]
+          .get(vertex)!
+          .flatMap((first) => [0, 1, 2].map((k) => seen(triangles[first + k])));
+        const at = { class: showBack(corners) ? 'behind' : '', x: x + 7, y: y - 7 };
+        svg('text', at, this.labels).textContent = String(number);
       }
     });
   }
@@ -349,7 +363,7 @@ export class Picking {
   private save(): void {
     const { markers } = this.picked;
     if (this.mode === 'markers') {
-      if (markers.length < 3) return tell('No file: at least three markers are needed.');
+      if (markers.length === 0) return tell('No file: no marker is complete.');
       return this.write('markers.txt', markersText(this.files, markers));
     }
     const parts = this.partsShown();

@@ -97,6 +97,9 @@ export interface MeshScene extends Body {
   kind: 'mesh';
   /** Its name in command lines. */
   file: string;
+  /** Vertices that are picked already: those of two meshes with the same place in the list are a
+   * marker. */
+  markers: number[];
 }
 
 export type SceneData = PathScene | SpaceScene | ModesScene | MeshScene;

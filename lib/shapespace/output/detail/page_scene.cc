@@ -458,8 +458,18 @@ std::string EncodeScene(const PageMesh& scene) {
   CheckShapes(scene.name, *scene.connectivity, {scene.shape});
   CheckColours(scene.name, scene.vertex_colours, scene.shape.cols());
   CheckSize(scene.name, 1, scene.connectivity->NumVertices(), 6);
-  OrderedJson header = {
-      {"version", kVersion}, {"kind", "mesh"}, {"name", scene.name}, {"file", scene.file}};
+  const int vertices = scene.connectivity->NumVertices();
+  for (const int vertex : scene.markers) {
+    if (vertex < 0 || vertex >= vertices) {
+      throw MeshError(scene.name + ": a marker is at vertex " + std::to_string(vertex) + " of " +
+                      std::to_string(vertices) + ", counted from 0");
+    }
+  }
+  OrderedJson header = {{"version", kVersion},
+                        {"kind", "mesh"},
+                        {"name", scene.name},
+                        {"file", scene.file},
+                        {"markers", scene.markers}};
   std::string arrays;
   AppendConnectivity(*scene.connectivity, &header, &arrays);
   AppendView(*scene.connectivity, {scene.shape}, Eigen::Vector3d::Zero(), &header);
