@@ -342,12 +342,9 @@ TEST_F(PageTest, RefusesWhatIsNotValid) {
   };
   refused(PagePath{&path, "bad"});
   refused(PageMesh{nullptr, Shape(), {}, "bad"});
-  refused(PageMesh{path.metric->connectivity, path.shapes[0], {}, "bad", {-1}});
-  refused(PageMesh{path.metric->connectivity,
-                   path.shapes[0],
-                   {},
-                   "bad",
-                   {path.metric->connectivity->NumVertices()}});
+  for (const int marker : {-1, path.metric->connectivity->NumVertices()}) {
+    refused(PageMesh{path.metric->connectivity, path.shapes[0], {}, "bad", "bad.obj", {marker}});
+  }
   refused(PageMesh{path.metric->connectivity, Shape::Zero(3, 1), {}, "bad"});
   PageSpace space = TubeSpace();
   space.name = "bad";
