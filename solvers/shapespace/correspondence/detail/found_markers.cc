@@ -263,7 +263,7 @@ class Finder {
     const auto fit = [&](const Pairs& markers, Folds folds) {
       return FitOf(from_, stretch, candidate, Markers(markers), folds, progress_);
     };
-    const CandidateFit first = fit(candidate.markers, Folds::kKeep);
+    CandidateFit first = fit(candidate.markers, Folds::kKeep);
     if (first.result.summary.cancelled) return first;
     const Pairs markers = matcher_.RefineMarkers(
         candidate, first.to_target,
