@@ -96,12 +96,14 @@ TEST(Correspond, OneMarkerDecidesBetweenMaps) {
   }
 }
 
-TEST(Correspond, SaysWhyNothingIsFoundInABodyWithoutLimbs) {
-  const ShapeFamily tube = MakeBody("tube");
-  const Shape rest = tube.pose(tube.begin);
-  const std::string message = MessageOf<MeshError>(
-      [&] { Correspond(tube.connectivity, rest, tube.connectivity, rest, {}); });
-  EXPECT_TRUE(testing::Names(message, {"markers"})) << message;
+TEST(Correspond, SaysWhyNothingIsFoundInABodyOfFourVertices) {
+  const auto solid = Connectivity::FromTriangles(
+      4, (Eigen::Matrix3Xi(3, 4) << 0, 0, 0, 1, 2, 3, 1, 2, 1, 1, 2, 3).finished());
+  Shape shape = Shape::Zero(3, 4);
+  shape.rightCols<3>().setIdentity();
+  const std::string message =
+      MessageOf<MeshError>([&] { Correspond(solid, shape, solid, shape, {}); });
+  EXPECT_TRUE(testing::Names(message, {"template", "4 vertices", "markers"})) << message;
 }
 
 // A marker that is beside its place distorts a fit that meets it, and one that it leads does not.
