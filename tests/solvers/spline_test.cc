@@ -232,6 +232,17 @@ TEST(Spline, OfACycleDoesNotDependOnWhereItBegins) {
   }
 }
 
+TEST(Spline, NamesItsPosesIfTheyHaveNames) {
+  SplineOptions options = Fine(SplineEnds::kPeriodic, 3);
+  Poses poses;
+  poses.connectivity = Tube().connectivity;
+  poses.shapes = PosesAt(Tube(), {0, 60});
+  EXPECT_TRUE(Spline(poses, options).path.pose_names.empty());
+  poses.names = {"straight.obj", "bent.obj"};
+  EXPECT_EQ(Spline(poses, options).path.pose_names,
+            (std::vector<std::string>{"straight", "bent", "straight"}));
+}
+
 TEST(Spline, CommutesWithScaleAndPlaceAndReversesWithTime) {
   const std::vector<Shape> poses = PosesAt(Tube(), {0, 90, 30});
   const SplineOptions options = Fine(SplineEnds::kNatural, 3);

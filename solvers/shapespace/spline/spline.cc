@@ -268,7 +268,7 @@ SplineResult Spline(const Poses& poses, const SplineOptions& options, Progress* 
   result.path.appearance = poses.soup.appearance;
   std::vector<std::string>& names = result.path.pose_names;
   for (const std::string& name : poses.names) names.push_back(DisplayName(name));
-  if (options.ends == SplineEnds::kPeriodic) names.push_back(names.front());
+  if (options.ends == SplineEnds::kPeriodic && !names.empty()) names.push_back(names.front());
   return result;
 }
 
