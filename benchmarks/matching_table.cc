@@ -4,10 +4,10 @@
 // the best of all candidates, and of the fit, with its 95th percentile. Seconds depend on the
 // machine.
 //
-//   matching_table FOLDER...   every folder has a file pairs.txt, a line for each pair: the names
-//   of
-//                              two meshes, FOLDER/NAME.obj, and of the file with their known
-//                              answer, lines with a vertex of each, from 1
+//   matching_table FOLDER...
+//
+// Every folder has a file pairs.txt, a line for each pair: the names of two meshes,
+// FOLDER/NAME.obj, and of the file with their known answer, lines with a vertex of each, from 1.
 //
 // A line for each candidate is printed with --candidates.
 
@@ -164,9 +164,8 @@ void PrintPair(const std::string& folder, const std::string& source, const std::
 
 void PrintFolder(const std::string& folder) {
   std::printf(
-      "\n| %s | extremities | maps, refused | seconds: bodies, assignments, maps, figures, markers "
-      "| "
-      "first map | best | fit | 95 %% | certainty | turned | seconds |\n"
+      "\n| %s | extremities | maps, refused | seconds: bodies, assignments, maps, figures, "
+      "markers | first map | best | fit | 95 %% | certainty | turned | seconds |\n"
       "|---|---|---|---|---|---|---|---|---|---|---|\n",
       folder.c_str());
   std::ifstream stream(folder + "/pairs.txt");
@@ -177,9 +176,8 @@ void PrintFolder(const std::string& folder) {
   }
   const double found = sum.pairs - sum.none;
   std::printf(
-      "| mean of %d, %d without a map, %d gross, %d of them without a warning | | | | %.2f | %.2f "
-      "| "
-      "%.2f | %.2f | | | %.1f |\n",
+      "| mean of %d, %d without a map, %d gross, %d of them without a warning | | | | %.2f | "
+      "%.2f | %.2f | %.2f | | | %.1f |\n",
       sum.pairs, sum.none, sum.gross, sum.silent, sum.first / found, sum.best / found,
       sum.fit / found, sum.p95 / found, sum.seconds / found);
 }

@@ -26,8 +26,8 @@
 DEFINE_string(output, "fitted.obj,map.txt,check.png",
               "files to write, separated by commas: .obj, .ply, .off or .stl (the fitted "
               "template), .txt (the map in both directions), .png (a picture for judging it), "
-              ".html (a page for "
-              "that, on which markers are mended); - writes the fitted template to stdout, as PLY");
+              ".html (a page for that, on which markers are mended); - writes the fitted template "
+              "to stdout, as PLY");
 DEFINE_bool(allow_nonmanifold, false,
             "accept meshes with non-manifold edges or vertices, or inconsistent winding");
 DEFINE_bool(open_seams, false,
@@ -69,7 +69,7 @@ Poses ReadMesh(const std::string& file) {
   return mesh;
 }
 
-// A file's name without its folder, because a page is passed on to others.
+// What a page calls a file.
 std::string NameOnPage(const std::string& file) {
   return file == "-" ? "stdin" : std::filesystem::path(file).filename().string();
 }

@@ -58,23 +58,25 @@ export async function look(page, [from, to] = [0, 1]) {
   return (await page.screenshot({ clip })).toString('base64');
 }
 
+// The pixels of a picture, red, green, blue and alpha, as a handle of the browser's.
+export function pixelsOf(page, picture) {
+  return page.evaluateHandle(async (data) => {
+    const image = new Image();
+    image.src = `data:image/png;base64,${data}`;
+    await image.decode();
+    const canvas = document.createElement('canvas');
+    canvas.width = image.width;
+    canvas.height = image.height;
+    const context = canvas.getContext('2d');
+    context.drawImage(image, 0, 0);
+    return context.getImageData(0, 0, image.width, image.height).data;
+  }, picture);
+}
+
 // The share of pixels that differ visibly between two looks.
-export function difference(page, one, other) {
+export async function difference(page, one, other) {
   return page.evaluate(
-    async (pictures) => {
-      const pixels = await Promise.all(
-        pictures.map(async (picture) => {
-          const image = new Image();
-          image.src = `data:image/png;base64,${picture}`;
-          await image.decode();
-          const canvas = document.createElement('canvas');
-          canvas.width = image.width;
-          canvas.height = image.height;
-          const context = canvas.getContext('2d');
-          context.drawImage(image, 0, 0);
-          return context.getImageData(0, 0, image.width, image.height).data;
-        }),
-      );
+    (pixels) => {
       let count = 0;
       for (let i = 0; i < pixels[0].length; i += 4) {
         const off = [0, 1, 2].map((k) => Math.abs(pixels[0][i + k] - pixels[1][i + k]));
@@ -82,7 +84,7 @@ export function difference(page, one, other) {
       }
       return (4 * count) / pixels[0].length;
     },
-    [one, other],
+    [await pixelsOf(page, one), await pixelsOf(page, other)],
   );
 }
 

@@ -15,6 +15,7 @@ import {
   look,
   open,
   pictures,
+  pixelsOf,
   saved,
   setTime,
   time,
@@ -22,25 +23,19 @@ import {
 } from './opened_page.mjs';
 
 // The shares of pixels that are clearly red, and clearly blue.
-function redAndBlue(page, picture) {
-  return page.evaluate(async (data) => {
-    const image = new Image();
-    image.src = `data:image/png;base64,${data}`;
-    await image.decode();
-    const canvas = document.createElement('canvas');
-    canvas.width = image.width;
-    canvas.height = image.height;
-    const context = canvas.getContext('2d');
-    context.drawImage(image, 0, 0);
-    const pixels = context.getImageData(0, 0, image.width, image.height).data;
-    const counts = [0, 0];
-    for (let i = 0; i < pixels.length; i += 4) {
-      const [red, green, blue] = pixels.slice(i, i + 3);
-      if (red > 2 * Math.max(green, blue) + 50) ++counts[0];
-      if (blue > 2 * Math.max(green, red) + 50) ++counts[1];
-    }
-    return counts.map((count) => (4 * count) / pixels.length);
-  }, picture);
+async function redAndBlue(page, picture) {
+  return page.evaluate(
+    (pixels) => {
+      const counts = [0, 0];
+      for (let i = 0; i < pixels.length; i += 4) {
+        const [red, green, blue] = pixels.slice(i, i + 3);
+        if (red > 2 * Math.max(green, blue) + 50) ++counts[0];
+        if (blue > 2 * Math.max(green, red) + 50) ++counts[1];
+      }
+      return counts.map((count) => (4 * count) / pixels.length);
+    },
+    await pixelsOf(page, picture),
+  );
 }
 
 describe('every page', () => {

@@ -35,7 +35,7 @@ void CheckTimes(const std::vector<double>& times, double first, double last) {
   }
 }
 
-/// Adds shape k of `result` to its poses if it is shape i of `path` and that is a pose.
+// Adds shape k of `result` to its poses if it is shape i of `path` and that is a pose.
 void KeepPose(const Path& path, int i, int k, Path* result) {
   const auto pose = std::lower_bound(path.poses.begin(), path.poses.end(), i);
   if (pose == path.poses.end() || *pose != i) return;

@@ -1,3 +1,4 @@
+#include <initializer_list>
 #include <sstream>
 
 #include <shapespace/correspondence/correspondence.h>
@@ -93,14 +94,13 @@ std::string CorrespondenceSummary::FullReport() const {
 std::string CorrespondenceSummary::ToJson() const {
   auto json = internal::JsonOf(*this);
   // Files count from 1; markers that have not changed places with another have 0.
-  for (auto& doubt : json["doubtful"]) {
-    for (const char* key : {"marker", "expected", "swapped"})
-      doubt[key] = doubt[key].get<int>() + 1;
-  }
-  for (auto& part : json["parts_in_doubt"]) {
-    for (const char* key : {"vertex", "target_vertex", "other_vertex"})
-      part[key] = part[key].get<int>() + 1;
-  }
+  const auto count_from_one = [&](const char* list, std::initializer_list<const char*> keys) {
+    for (auto& row : json[list]) {
+      for (const char* key : keys) row[key] = row[key].get<int>() + 1;
+    }
+  };
+  count_from_one("doubtful", {"marker", "expected", "swapped"});
+  count_from_one("parts_in_doubt", {"vertex", "target_vertex", "other_vertex"});
   return internal::TextOf(json);
 }
 

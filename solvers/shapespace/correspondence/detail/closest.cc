@@ -16,6 +16,17 @@ constexpr double kFar = 0.05;
 
 }  // namespace
 
+SurfacePoints PointsOf(const std::vector<ClosestPoint>& closest) {
+  SurfacePoints points;
+  points.triangle.resize(static_cast<Eigen::Index>(closest.size()));
+  points.barycentric.resize(3, static_cast<Eigen::Index>(closest.size()));
+  for (Eigen::Index i = 0; i < points.triangle.size(); ++i) {
+    points.triangle(i) = closest[i].triangle;
+    points.barycentric.col(i) = closest[i].barycentric;
+  }
+  return points;
+}
+
 Eigen::VectorXd VertexAreas(const Connectivity& connectivity, const Shape& shape) {
   Eigen::VectorXd areas = Eigen::VectorXd::Zero(shape.cols());
   for (int f = 0; f < connectivity.NumTriangles(); ++f) {

@@ -10,6 +10,7 @@
 
 #include <shapespace/correspondence/detail/marker_distances.h>
 #include <shapespace/correspondence/detail/shell_fit.h>
+#include <shapespace/correspondence/surface_map.h>
 #include <shapespace/mesh/connectivity.h>
 #include <shapespace/mesh/shape.h>
 #include <shapespace/mesh/surface.h>
@@ -57,6 +58,9 @@ class Target {
   const Border border_;
   const MarkerDistances& distances_;
 };
+
+/// Where points are on their meshes, without their positions.
+SurfacePoints PointsOf(const std::vector<ClosestPoint>& closest);
 
 /// A third of the area of the triangles around each vertex, scaled to sum 1.
 Eigen::VectorXd VertexAreas(const Connectivity& connectivity, const Shape& shape);

@@ -11,17 +11,6 @@
 namespace shapespace::internal {
 namespace {
 
-SurfacePoints PointsOf(const std::vector<ClosestPoint>& closest) {
-  SurfacePoints points;
-  points.triangle.resize(static_cast<Eigen::Index>(closest.size()));
-  points.barycentric.resize(3, static_cast<Eigen::Index>(closest.size()));
-  for (Eigen::Index i = 0; i < points.triangle.size(); ++i) {
-    points.triangle(i) = closest[i].triangle;
-    points.barycentric.col(i) = closest[i].barycentric;
-  }
-  return points;
-}
-
 // The template's vertices on the target, and how near the fitted template is to them.
 void MapToTarget(const Level& level, const Shape& fitted, const Target& target, SurfaceMap* map,
                  CorrespondenceSummary* summary) {

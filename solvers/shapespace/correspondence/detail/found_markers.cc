@@ -10,11 +10,11 @@
 #include <shapespace/base/internal/sort_unique.h>
 #include <shapespace/base/internal/stopwatch.h>
 #include <shapespace/base/internal/task_group.h>
+#include <shapespace/correspondence/detail/closest.h>
 #include <shapespace/correspondence/detail/nearest_corners.h>
 #include <shapespace/correspondence/detail/smooth_stretch.h>
 #include <shapespace/hierarchy/hierarchy.h>
 #include <shapespace/matching/internal/matching.h>
-#include <shapespace/mesh/internal/geometry.h>
 #include <shapespace/mesh/internal/sides.h>
 #include <shapespace/summary/internal/report.h>
 
@@ -231,7 +231,7 @@ class Finder {
       const int root = connected.Find(v);
       CorrespondenceSummary::PartInDoubt& part = part_of[root];
       const CandidateFit& fit = fits_[other[v]];
-      part.share = (part.vertex < 0 ? 0 : part.share) + areas(v) / areas.sum();
+      part.share = (part.vertex < 0 ? 0 : part.share) + areas(v);
       const double apart = Apart(fit, fits_[0], v);
       if (apart <= farthest[root]) continue;
       farthest[root] = apart;

@@ -1,9 +1,12 @@
 #include <shapespace/correspondence/detail/marked_part.h>
 
 #include <algorithm>
+#include <numeric>
+#include <utility>
 
 #include <shapespace/base/parallel.h>
-#include <shapespace/correspondence/surface_map.h>
+#include <shapespace/correspondence/detail/closest.h>
+#include <shapespace/mesh/internal/submesh.h>
 #include <shapespace/mesh/surface.h>
 #include <shapespace/mesh/topology.h>
 
@@ -18,23 +21,18 @@ MarkedPart::MarkedPart(const std::shared_ptr<const Connectivity>& body,
     marked[topology.component[marker.template_vertex]] = true;
   }
   others = static_cast<int>(std::count(marked.begin(), marked.end(), false));
-  std::vector<int> index(body->NumVertices(), -1);
-  for (int v = 0; v < body->NumVertices(); ++v) {
-    const int component = topology.component[v];
-    if (!IsAll() && (component < 0 || !marked[component])) continue;
-    index[v] = static_cast<int>(vertices.size());
-    vertices.push_back(v);
+  if (IsAll()) {
+    vertices.resize(body->NumVertices());
+    std::iota(vertices.begin(), vertices.end(), 0);
+    return;
   }
-  if (IsAll()) return;
-  Eigen::Matrix3Xi triangles(3, body->NumTriangles());
-  int count = 0;
-  for (const auto& triangle : body->Triangles().colwise()) {
-    if (index[triangle(0)] < 0) continue;
-    for (int k = 0; k < 3; ++k) triangles(k, count) = index[triangle(k)];
-    ++count;
+  std::vector<bool> keep;
+  for (const int component : topology.component) {
+    keep.push_back(component >= 0 && marked[component]);
   }
-  connectivity =
-      Connectivity::FromTriangles(static_cast<int>(vertices.size()), triangles.leftCols(count));
+  Submesh part = MakeSubmesh(*body, keep);
+  connectivity = std::move(part.connectivity);
+  vertices = std::move(part.vertices);
 }
 
 int MarkedPart::IndexOf(int vertex) const {
@@ -52,15 +50,10 @@ Shape MarkedPart::Follow(const Shape& rest, const Shape& moved) const {
   }
   const Shape part_rest = rest(Eigen::all, vertices), own = rest(Eigen::all, following);
   const MeshSurface surface(connectivity, part_rest);
-  SurfacePoints points;
-  points.triangle.resize(own.cols());
-  points.barycentric.resize(3, own.cols());
-  ParallelFor(static_cast<int>(own.cols()), [&](int i) {
-    const ClosestPoint nearest = surface.Nearest(own.col(i));
-    points.triangle(i) = nearest.triangle;
-    points.barycentric.col(i) = nearest.barycentric;
-  });
-  const Shape carried = CarryAlong(points, *connectivity, part_rest, moved, own);
+  std::vector<ClosestPoint> nearest(following.size());
+  ParallelFor(static_cast<int>(nearest.size()),
+              [&](int i) { nearest[i] = surface.Nearest(own.col(i)); });
+  const Shape carried = CarryAlong(PointsOf(nearest), *connectivity, part_rest, moved, own);
   Shape body(3, rest.cols());
   for (size_t i = 0; i < vertices.size(); ++i) body.col(vertices[i]) = moved.col(i);
   for (size_t i = 0; i < following.size(); ++i) body.col(following[i]) = carried.col(i);

@@ -13,7 +13,6 @@
 #include <shapespace/correspondence/detail/marker_check.h>
 #include <shapespace/correspondence/detail/marker_distances.h>
 #include <shapespace/correspondence/detail/similarity.h>
-#include <shapespace/correspondence/detail/template_fit.h>
 #include <shapespace/matching/internal/check_body.h>
 #include <shapespace/mesh/ties.h>
 
@@ -175,7 +174,7 @@ CorrespondenceResult FitWithMarkers(const FitBody& from, const FitBody& target,
   const Target goal(target.connectivity, target.own, measured.distances);
   summary.marker_seconds = stopwatch.Seconds();
 
-  TemplateFit fit(options, goal, std::move(placed), folds == Folds::kUnfold, progress, &summary);
+  TemplateFit fit(options, goal, std::move(placed), folds, progress, &summary);
   const Shape fitted_part = fit(part.connectivity, rest(Eigen::all, part.vertices));
   if (!HasArea(*part.connectivity, fitted_part)) {
     throw MeshError(

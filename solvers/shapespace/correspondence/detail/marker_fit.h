@@ -7,6 +7,7 @@
 #include <shapespace/base/progress.h>
 #include <shapespace/correspondence/correspondence.h>
 #include <shapespace/correspondence/detail/own_frame.h>
+#include <shapespace/correspondence/detail/template_fit.h>
 #include <shapespace/mesh/connectivity.h>
 #include <shapespace/mesh/shape.h>
 
@@ -21,9 +22,6 @@ struct FitBody {
   const OwnFrame frame;
   const Shape own;  ///< the shape in its own frame
 };
-
-/// Whether folds of a fit are unfolded. Those of a wrong candidate take more time than all else.
-enum class Folds { kKeep, kUnfold };
 
 /// Fits a template onto a target with these markers, which are on vertices that have elements; the
 /// first `num_given` are the user's, who is told which of them are doubtful. `summary` is what is

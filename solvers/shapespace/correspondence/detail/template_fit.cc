@@ -32,12 +32,12 @@ int IndexOn(const Level& level, int v) {
 }  // namespace
 
 TemplateFit::TemplateFit(const CorrespondenceOptions& options, const Target& target,
-                         FitMarkers markers, bool unfolds, Progress* progress,
+                         FitMarkers markers, Folds folds, Progress* progress,
                          CorrespondenceSummary* summary)
     : options_(options),
       target_(target),
       markers_(std::move(markers)),
-      unfolds_(unfolds),
+      folds_(folds),
       progress_(progress),
       summary_(summary) {}
 
@@ -123,7 +123,7 @@ void TemplateFit::Finish(const Level& level, const Shape& rest, Shape* shape) {
   summary_->converged =
       Rounds(level, &fit, kLastWeight, options_.max_iterations, shape) && !summary_->cancelled;
   const Stopwatch stopwatch;
-  if (unfolds_) Unfold(level, rest, target_, HeldOn(level), shape);
+  if (folds_ == Folds::kUnfold) Unfold(level, rest, target_, HeldOn(level), shape);
   level.connectivity->CopyToTwins(shape);
   summary_->unfold_seconds = stopwatch.Seconds();
 }

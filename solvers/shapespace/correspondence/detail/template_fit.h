@@ -22,12 +22,15 @@ struct FitMarkers {
   std::vector<bool> held;
 };
 
+/// Whether folds of a fit are unfolded. Those of a wrong candidate take more time than all else.
+enum class Folds { kKeep, kUnfold };
+
 /// Fits the template onto the target level by level.
 class TemplateFit {
  public:
   /// `options`, `target`, `progress` (may be null) and `summary` are kept.
   TemplateFit(const CorrespondenceOptions& options, const Target& target, FitMarkers markers,
-              bool unfolds, Progress* progress, CorrespondenceSummary* summary);
+              Folds folds, Progress* progress, CorrespondenceSummary* summary);
 
   /// `rest`: the template at rest, in the target's frame. \return the fitted template. Stages,
   /// seconds and how it ended are said in the summary.
@@ -48,7 +51,7 @@ class TemplateFit {
   const CorrespondenceOptions& options_;
   const Target& target_;
   const FitMarkers markers_;
-  const bool unfolds_;
+  const Folds folds_;
   Progress* const progress_;
   CorrespondenceSummary* const summary_;
   int level_ = 0, num_levels_ = 0;

@@ -14,8 +14,6 @@ namespace {
 
 // Samples from which distances are compared, and those to which.
 constexpr size_t kFrom = 60, kTo = 300;
-// Keeps the relative change of short distances from deciding.
-constexpr float kShortPath = 0.1F;
 // Eigenfunctions after the constant one by which orientation is judged.
 constexpr int kOriented = 8;
 
@@ -76,8 +74,7 @@ std::vector<double> Changes(const Eigen::MatrixXf& before, const MatchingBody& t
       const auto column =
           std::lower_bound(images.begin(), images.end(), (map.*direction)[i]) - images.begin();
       for (Eigen::Index k = 0; k < before.cols(); ++k) {
-        const float d = before(i, k), e = after((map.*direction)[k], column);
-        sum += std::abs(d - e) / (0.5F * (d + e) + kShortPath);
+        sum += RelativeChange(before(i, k), after((map.*direction)[k], column));
       }
     }
     changes.push_back(sum / static_cast<double>(before.size()));

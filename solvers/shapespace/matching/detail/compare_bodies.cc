@@ -10,8 +10,6 @@ namespace {
 
 // Pairs from which distances are compared, to all others.
 constexpr size_t kDistancesFrom = 80;
-// Keeps the relative change of short distances from deciding.
-constexpr double kShortWay = 0.1;
 // In units of the area: heat has spread over a tenth of its root.
 constexpr double kHeatTime = 0.003;
 
@@ -28,8 +26,7 @@ double Isometry(const MatchingBody& on_template, const MatchingBody& on_target,
   double sum = 0;
   for (Eigen::Index i = 0; i < before.cols(); ++i) {
     for (const auto& [from, to] : pairs) {
-      const double d = before(from, i), e = after(to, i);
-      sum += std::abs(d - e) / (0.5 * (d + e) + kShortWay);
+      sum += RelativeChange<double>(before(from, i), after(to, i));
     }
   }
   return sum / static_cast<double>(before.cols() * pairs.size());

@@ -1,6 +1,10 @@
 #ifndef SHAPESPACE_MATCHING_DETAIL_COMPARE_BODIES_H_
 #define SHAPESPACE_MATCHING_DETAIL_COMPARE_BODIES_H_
 
+#include <cmath>
+
+#include <Eigen/Core>
+
 #include <shapespace/matching/detail/markers.h>
 #include <shapespace/matching/detail/matching_body.h>
 #include <shapespace/matching/internal/matching.h>
@@ -10,6 +14,12 @@ namespace shapespace::internal {
 /// The integral of the mean curvature around each vertex, positive where the surface is convex:
 /// half of the Laplacian of the position, along the normal.
 Eigen::VectorXd MeanCurvature(const MatchingBody& body);
+
+/// The change of a distance along the surface relative to it, such that short ones do not decide.
+template <typename T>
+T RelativeChange(T before, T after) {
+  return std::abs(before - after) / (T(0.5) * (before + after) + T(0.1));
+}
 
 /// Compares two bodies at pairs of vertices of their working surfaces. The curvature is smoothed by
 /// all eigenfunctions, and saturates. The heat kernel signature (J. Sun, M. Ovsjanikov and

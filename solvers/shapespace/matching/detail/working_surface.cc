@@ -10,6 +10,7 @@
 #include <shapespace/matching/internal/check_body.h>
 #include <shapespace/mesh/internal/geometry.h>
 #include <shapespace/mesh/internal/sides.h>
+#include <shapespace/mesh/internal/submesh.h>
 
 namespace shapespace::internal {
 namespace {
@@ -18,10 +19,10 @@ namespace {
 // of their waves.
 constexpr int kDecimated = 10000;
 
-// The triangles of the component whose area is largest; of equal ones, the one with the vertex of
+// The vertices of the component whose area is largest; of equal ones, the one with the vertex of
 // the smallest number.
-std::vector<int> LargestComponent(const Eigen::Matrix3Xi& triangles, const Eigen::VectorXd& areas,
-                                  int num_vertices) {
+std::vector<bool> LargestComponent(const Eigen::Matrix3Xi& triangles, const Eigen::VectorXd& areas,
+                                   int num_vertices) {
   UnionFind components(num_vertices);
   for (const auto& triangle : triangles.colwise()) {
     components.Join(triangle(0), triangle(1));
@@ -31,10 +32,8 @@ std::vector<int> LargestComponent(const Eigen::Matrix3Xi& triangles, const Eigen
   for (int f = 0; f < triangles.cols(); ++f) total(components.Find(triangles(0, f))) += areas(f);
   Eigen::Index largest;
   total.maxCoeff(&largest);
-  std::vector<int> members;
-  for (int f = 0; f < triangles.cols(); ++f) {
-    if (components.Find(triangles(0, f)) == largest) members.push_back(f);
-  }
+  std::vector<bool> members(num_vertices);
+  for (int v = 0; v < num_vertices; ++v) members[v] = components.Find(v) == largest;
   return members;
 }
 
@@ -60,27 +59,15 @@ WorkingSurface MakeWorkingSurface(const std::string& name, const Connectivity& c
   for (int f = 0; f < all.cols(); ++f) areas(f) = TriangleArea(near, all.col(f));
   if (!(areas.sum() > 0)) throw MeshError("the " + name + " has no area");
 
-  const std::vector<int> members = LargestComponent(all, areas, connectivity.NumVertices());
+  Submesh part =
+      MakeSubmesh(connectivity, LargestComponent(all, areas, connectivity.NumVertices()));
   WorkingSurface surface;
-  surface.nearest.assign(connectivity.NumVertices(), -1);
-  for (const int f : members) {
-    for (const int v : all.col(f)) surface.nearest[v] = 0;
-  }
-  for (int v = 0; v < connectivity.NumVertices(); ++v) {
-    if (surface.nearest[v] < 0) continue;
-    surface.nearest[v] = static_cast<int>(surface.vertices.size());
-    surface.vertices.push_back(v);
-  }
-  Eigen::Matrix3Xi triangles(3, members.size());
-  for (size_t i = 0; i < members.size(); ++i) {
-    for (int k = 0; k < 3; ++k) triangles(k, i) = surface.nearest[all(k, members[i])];
-  }
-  const auto num_vertices = static_cast<int>(surface.vertices.size());
-  surface.connectivity = Connectivity::FromTriangles(num_vertices, triangles);
-  surface.shape.resize(3, num_vertices);
-  for (int v = 0; v < num_vertices; ++v) surface.shape.col(v) = near.col(surface.vertices[v]);
+  surface.connectivity = std::move(part.connectivity);
+  surface.vertices = std::move(part.vertices);
+  surface.nearest = std::move(part.index);
+  surface.shape = near(Eigen::all, surface.vertices);
 
-  if (triangles.cols() > 2 * kDecimated) {
+  if (surface.connectivity->NumTriangles() > 2 * kDecimated) {
     HierarchyOptions options;
     options.coarsest = kDecimated;
     const Hierarchy hierarchy(surface.connectivity, {surface.shape}, options, progress);
