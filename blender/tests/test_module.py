@@ -162,6 +162,20 @@ class Module(Case):
         self.wait_for(lambda: threading.active_count() <= threads)
         self.assertEqual(state(), before)
 
+    def test_fits_as_the_tools_do(self):
+        (stand,), faces = self.quadruped("stand")
+        (stride,), others = self.quadruped("stride", triangles=2500)
+        target, template = add_object("target", stride, others), add_object("template", stand, faces)
+        found = []
+        for engine in ("TOOLS", "MODULE"):
+            preferences().engine = engine
+            select(target, template)
+            bpy.ops.shapespace.fit()
+            fitted = bpy.data.objects["template as target"]
+            found.append([tuple(vertex.co) for vertex in fitted.data.vertices])
+            bpy.data.objects.remove(fitted)
+        self.near(*found, 1e-4)
+
     def test_its_errors_are_reports(self):
         cube = add_object("cube", CUBE, CUBE_FACES)
         add_key(cube, "inside out", np.array(CUBE) * [-1, 1, 1])

@@ -421,6 +421,11 @@ TEST(Interpolate, SummaryAddsUp) {
 TEST(Interpolate, RefusesWhatCannotWork) {
   const ShapeFamily bar = MakeBar(6, 1, 1, 8, 2, 2);
   EXPECT_THROW(Interpolate(bar.connectivity, {bar.pose(0)}), MeshError);
+  EXPECT_TRUE(testing::Refuses<MeshError>(
+      [&] {
+        Interpolate(bar.connectivity, {bar.pose(0), bar.pose(9).leftCols(7)});
+      },
+      {"7", std::to_string(bar.connectivity->NumVertices()), "Correspond"}));
   GeodesicOptions options;
   options.shapes = 0;
   EXPECT_THROW(Interpolate(bar.connectivity, {bar.pose(0), bar.pose(9)}, options), InvalidOptions);
