@@ -12,6 +12,7 @@ async function shoot(name, { width, height, colorScheme }, act) {
   });
   await page.goto(`file://${process.cwd()}/${name}.html`);
   await settled(page);
+  await page.keyboard.press('Shift'); // a first touch, after which the hint is gone
   await act(page);
   await page.waitForTimeout(1000);
   await page.screenshot({ path: `${folder}/view-${name === 'walk' ? 'path' : name}.png` });

@@ -243,6 +243,12 @@ describe('there is room', () => {
     }
   });
 
+  test('for the shape beside a plane', async () => {
+    await open('space', { viewport: { width: 1000, height: 640 } }, async (page) => {
+      assert.ok((await heightInSight(page, '#canvas')) > 0.4 * 640);
+    });
+  });
+
   // The right edges of fields, and the left ones, are each on one line.
   test('for fields in columns', async () => {
     await open('walk-path', {}, async (page) => {

@@ -74,10 +74,10 @@ export const ofMesh: Explanation = {
 };
 
 export const ofMarkers: Explanation = {
-  hint: 'Click a place on A, then the same place on B, at least three times; drag to turn both.',
+  hint: 'Click a place on A, then the same place on B; drag to turn both.',
   deeds: [
     'Click a place on one body, then the same place on the other, such as the tip of an ear: both ' +
-      'get the same number. Three pairs are needed, and more are better.',
+      'get the same number. One or two pairs settle doubts, and three or more guide the fit alone.',
     'Save writes them as a file. The command reads it, and fits A onto B.',
     view,
   ],
