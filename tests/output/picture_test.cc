@@ -274,6 +274,12 @@ TEST(RenderFilmStripTest, GroupsAreShownAsColoursWithALegend) {
   EXPECT_EQ(none.blue, 0);
   EXPECT_GT(first.blue, 0.9 * first.drawn);
   EXPECT_GT(Count(image, 0, image.width, plain.height, image.height).blue, 100);
+
+  // Groups that have their numbers beside them need no list of colours.
+  options.numbers = Eigen::VectorXi::Zero(sphere.shape.cols());
+  const RgbImage numbered = RenderFilmStrip(*sphere.connectivity, {sphere.shape}, options);
+  ASSERT_EQ(numbered.height, image.height);
+  EXPECT_EQ(Count(numbered, 0, numbered.width, plain.height, numbered.height).blue, 0);
 }
 
 TEST(RenderFilmStripTest, RolesDecideTheColour) {

@@ -361,7 +361,8 @@ RgbImage RenderFilmStrip(const Connectivity& connectivity, const std::vector<Sha
     for (Eigen::VectorXd& v : values) v = (v / end_of_scale).cwiseMin(kLargestValue);
     legend = internal::DrawLegend(end_of_scale, largest, options.legend, text_size);
   } else if (options.groups.size() != 0) {
-    legend = internal::DrawGroupLegend(options.groups.maxCoeff() + 1, options.legend, text_size);
+    const int swatches = options.numbers.size() > 0 ? 0 : options.groups.maxCoeff() + 1;
+    legend = internal::DrawGroupLegend(swatches, options.legend, text_size);
   }
 
   const Eigen::VectorXi marks = Widened(connectivity, drawn.front(), options.marks, kMarkRadius);

@@ -55,7 +55,8 @@ struct FilmStripOptions {
                        ///< characters
 
   /// Optional group of each vertex, such as its rigid part, shown by colours with a legend that
-  /// counts from 1; negative: none, grey. Empty: none. Cannot be combined with `values`.
+  /// counts from 1, or that has its text alone where there are `numbers`; negative: none, grey.
+  /// Empty: none. Cannot be combined with `values`.
   Eigen::VectorXi groups;
 
   /// Optional mark of each vertex: 1 is drawn dark, 2 red, 0 not at all; around a vertex it is a
