@@ -34,18 +34,32 @@ constexpr double kPartShare = 0.01;
 // Fits that deform the template more than this are guesses.
 constexpr double kUnlike = 0.5;
 
-// The template on the coarsest level of its hierarchy, on which candidates are fitted. Its vertices
-// are some of the whole one's, in ascending order.
+// Markers are refined by a fit of the template with so many triangles. Those of finer fits are no
+// better.
+constexpr int kRefinedOn = 4000;
+
+// The template with fewer triangles. Its vertices are some of the whole one's, in ascending order.
 struct CoarseBody {
   FitBody body;
   std::vector<int> vertices;
+
+  // The markers, whose vertices are among these.
+  std::vector<CorrespondenceMarker> Own(std::vector<CorrespondenceMarker> markers) const {
+    for (CorrespondenceMarker& marker : markers) {
+      marker.template_vertex = static_cast<int>(
+          std::lower_bound(vertices.begin(), vertices.end(), marker.template_vertex) -
+          vertices.begin());
+    }
+    return markers;
+  }
 };
 
-CoarseBody Coarsen(const FitBody& whole, int triangles, std::vector<int> pinned) {
-  SortUnique(&pinned);
+CoarseBody Coarsen(const FitBody& whole, int triangles,
+                   const std::vector<CorrespondenceMarker>& markers) {
   HierarchyOptions options;
   options.coarsest = triangles;
-  options.pinned = std::move(pinned);
+  for (const auto& marker : markers) options.pinned.push_back(marker.template_vertex);
+  SortUnique(&options.pinned);
   const Hierarchy hierarchy(whole.connectivity, {whole.own}, options);
   return {{hierarchy.LevelConnectivity(0), hierarchy.Restrict(whole.own, 0)},
           hierarchy.Vertices(0)};
@@ -54,8 +68,7 @@ CoarseBody Coarsen(const FitBody& whole, int triangles, std::vector<int> pinned)
 // A candidate's fit, and how unlike the bodies are where it joins them.
 struct CandidateFit {
   MapCandidate candidate;
-  CorrespondenceResult result;
-  std::vector<int> to_target;  // of each vertex of the template
+  std::vector<int> to_target;  // of each vertex of the coarse template
   double deformation = kNotComputed;
   MapFigures figures;
 
@@ -91,16 +104,16 @@ class Finder {
     const std::optional<size_t> other = Other();
     double certainty = kNotComputed;
     if (other) certainty = fits_[*other].Cost() / fits_[0].Cost();
-    CandidateFit best = FitWhole(fits_[0]);
+    CorrespondenceResult result = FitWhole(fits_[0].candidate);
 
-    CorrespondenceSummary& summary = best.result.summary;
+    CorrespondenceSummary& summary = result.summary;
     summary.candidates = rows_;
     summary.template_extremities = matching_.template_extremities;
     summary.target_extremities = matching_.target_extremities;
     summary.matching_seconds = matching_seconds;
     summary.certainty = certainty;
     summary.parts_in_doubt = parts_;
-    best.result.in_doubt = in_doubt_;
+    result.in_doubt = in_doubt_;
     for (const CorrespondenceSummary::PartInDoubt& part : parts_) {
       summary.warnings.push_back(
           Format("%.2g %% of the template may belong elsewhere: its vertex %d is at the target's "
@@ -109,12 +122,12 @@ class Finder {
                  100 * part.share, part.vertex + 1, part.target_vertex + 1, part.other_vertex + 1,
                  part.cost));
     }
-    if (best.deformation > kUnlike) {
+    if (fits_[0].deformation > kUnlike) {
       summary.warnings.push_back("the bodies differ much in their proportions (deformation " +
-                                 Format("%.2f", best.deformation) +
+                                 Format("%.2f", fits_[0].deformation) +
                                  "): the map is a guess; check the picture");
     }
-    return std::move(best.result);
+    return result;
   }
 
  private:
@@ -126,31 +139,20 @@ class Finder {
     return markers;
   }
 
-  CandidateFit FitOf(const FitBody& body, const SmoothStretch& stretch,
-                     const MapCandidate& candidate,
-                     const std::vector<CorrespondenceMarker>& markers, Folds folds,
-                     Progress* progress) const {
-    CandidateFit fit;
-    fit.candidate = candidate;
-    fit.result =
-        FitWithMarkers(body, target_, markers, given_.size(), options_, begun_, folds, progress);
-    fit.to_target = NearestCorners(fit.result.map.to_target, *target_.connectivity);
-    const CorrespondenceSummary& summary = fit.result.summary;
-    fit.deformation =
-        stretch.Cost(target_.frame.In(fit.result.fitted)) + summary.uncovered + summary.turned;
-    return fit;
+  CorrespondenceResult FitOf(const FitBody& body, const std::vector<CorrespondenceMarker>& markers,
+                             Folds folds, Progress* progress) const {
+    return FitWithMarkers(body, target_, markers, given_.size(), options_, begun_, folds, progress);
   }
 
   // Fits the coarsened template with each candidate's markers; cheapest first.
   void FitCandidates() {
     const auto count = static_cast<int>(matching_.candidates.size());
-    Pairs all = given_pairs_;
+    std::vector<CorrespondenceMarker> all = given_;
     for (const MapCandidate& candidate : matching_.candidates) {
-      all.insert(all.end(), candidate.markers.begin(), candidate.markers.end());
+      const std::vector<CorrespondenceMarker> markers = Markers(candidate.markers);
+      all.insert(all.end(), markers.begin(), markers.end());
     }
-    std::vector<int> pinned;
-    for (const auto& pair : all) pinned.push_back(pair.first);
-    const CoarseBody coarse = Coarsen(from_, options_.coarsest, pinned);
+    const CoarseBody coarse = Coarsen(from_, options_.coarsest, all);
     const SmoothStretch stretch(coarse.body.connectivity, coarse.body.own, options_.proportions);
 
     rows_.resize(count);
@@ -160,22 +162,21 @@ class Finder {
       const MapCandidate& candidate = matching_.candidates[i];
       rows_[i].orientation = candidate.orientation;
       rows_[i].markers = static_cast<int>(candidate.markers.size());
-      std::vector<CorrespondenceMarker> markers = Markers(candidate.markers);
-      for (CorrespondenceMarker& marker : markers) {
-        marker.template_vertex =
-            static_cast<int>(std::lower_bound(coarse.vertices.begin(), coarse.vertices.end(),
-                                              marker.template_vertex) -
-                             coarse.vertices.begin());
-      }
       try {
-        fits[i] = FitOf(coarse.body, stretch, candidate, markers, Folds::kKeep, own);
-        if (fits[i]->result.summary.cancelled) throw Cancelled();
-        fits[i]->figures = matcher_.Compare(coarse.vertices, fits[i]->to_target);
-        rows_[i].deformation = fits[i]->deformation;
-        rows_[i].isometry = fits[i]->figures.isometry;
-        rows_[i].curvature = fits[i]->figures.curvature;
-        rows_[i].heat = fits[i]->figures.heat;
-        rows_[i].cost = fits[i]->Cost();
+        const CorrespondenceResult result =
+            FitOf(coarse.body, coarse.Own(Markers(candidate.markers)), Folds::kKeep, own);
+        if (result.summary.cancelled) throw Cancelled();
+        CandidateFit& fit = fits[i].emplace();
+        fit.candidate = candidate;
+        fit.to_target = NearestCorners(result.map.to_target, *target_.connectivity);
+        fit.deformation = stretch.Cost(target_.frame.In(result.fitted)) + result.summary.uncovered +
+                          result.summary.turned;
+        fit.figures = matcher_.Compare(coarse.vertices, fit.to_target);
+        rows_[i].deformation = fit.deformation;
+        rows_[i].isometry = fit.figures.isometry;
+        rows_[i].curvature = fit.figures.curvature;
+        rows_[i].heat = fit.figures.heat;
+        rows_[i].cost = fit.Cost();
       } catch (const MeshError& error) {
         problems[i] = error.what();  // its markers contradict each other
       }
@@ -255,26 +256,29 @@ class Finder {
     }
   }
 
-  // The whole template with the markers of a candidate, or with those of a map of functions that
-  // this fit makes, if they deform it less.
-  CandidateFit FitWhole(const CandidateFit& coarse) const {
-    const SmoothStretch stretch(from_.connectivity, from_.own, options_.proportions);
-    const MapCandidate& candidate = coarse.candidate;
-    const auto fit = [&](const Pairs& markers, Folds folds) {
-      return FitOf(from_, stretch, candidate, Markers(markers), folds, progress_);
-    };
-    CandidateFit first = fit(candidate.markers, Folds::kKeep);
-    if (first.result.summary.cancelled) return first;
-    const Pairs markers = matcher_.RefineMarkers(
-        candidate, first.to_target,
-        NearestCorners(first.result.map.to_template, *from_.connectivity), given_pairs_, progress_);
-    try {
-      CandidateFit again = fit(markers, Folds::kUnfold);
-      if (again.deformation < first.deformation) return again;
-    } catch (const MeshError&) {
-      // The better markers contradict each other.
+  // Markers of the map of functions that a fit of the coarse template makes.
+  Pairs Refine(const MapCandidate& candidate, const CoarseBody& coarse,
+               const CorrespondenceResult& fit) const {
+    const std::vector<int> of_coarse = NearestCorners(fit.map.to_target, *target_.connectivity);
+    std::vector<int> to_target, to_template;
+    for (const int v : matcher_.NearestOf(coarse.vertices)) {
+      to_target.push_back(of_coarse[std::max(0, v)]);  // none: the matcher knows that one neither
     }
-    return fit(candidate.markers, Folds::kUnfold);
+    for (const int v : NearestCorners(fit.map.to_template, *coarse.body.connectivity)) {
+      to_template.push_back(coarse.vertices[v]);
+    }
+    return matcher_.RefineMarkers(candidate, to_target, to_template, given_pairs_, progress_);
+  }
+
+  // The whole template with the markers of a map of functions that a fit of the coarser one with
+  // the candidate's makes.
+  CorrespondenceResult FitWhole(const MapCandidate& candidate) const {
+    const std::vector<CorrespondenceMarker> markers = Markers(candidate.markers);
+    const CoarseBody coarse = Coarsen(from_, kRefinedOn, markers);
+    const CorrespondenceResult first =
+        FitOf(coarse.body, coarse.Own(markers), Folds::kKeep, progress_);
+    if (first.summary.cancelled) throw Cancelled();
+    return FitOf(from_, Markers(Refine(candidate, coarse, first)), Folds::kUnfold, progress_);
   }
 
   const FitBody &from_, &target_;
