@@ -9,8 +9,46 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
 
-# README, guide/first-path.md
+# README: what moves. Animated PNG is shown wherever PNG is, and there without .apng in its name.
+"$bin/shape-body" quadruped --triangles 6000 --pose stand,rear,stride --output 'pose%d.obj'
+"$bin/shape-extrapolate" pose0.obj pose1.obj pose2.obj --shapes 7 --steps 4 --output opening.path
+"$bin/shape-export" opening.path --ground y=0 --output opening.apng
+cp opening.apng "$pictures/opening.png"
+
+# README: stills of three shapes each
+still() { "$bin/shape-export" "$1" --frames 3 --up y --labels none --output "$2"; }
 "$bin/shape-body" quadruped --pose sit,stretch --output 'animal%d.obj'
+"$bin/shape-interpolate" animal0.obj animal1.obj --output still.path
+still still.path "$pictures/still-between.png"
+
+"$bin/shape-body" quadruped --triangles 6000 --pose stand --proportions long --output 'other%d.obj'
+"$bin/shape-transfer" pose0.obj pose1.obj --target other0.obj --output still.path
+still still.path "$pictures/still-transfer.png"
+
+"$bin/shape-body" quadruped --triangles 4000 --pose sit --proportions heavy --output 'heavy%d.obj'
+"$bin/shape-correspond" pose0.obj heavy0.obj --output fitted.ply
+"$bin/shape-interpolate" pose0.obj fitted.ply --output still.path
+still still.path "$pictures/still-bodies.png"
+
+"$bin/shape-body" quadruped --triangles 3000 --random 8 --seed 1 --proportions long --output 'long%d.obj'
+"$bin/shape-body" quadruped --triangles 3000 --random 8 --seed 9 --proportions heavy --output 'stout%d.obj'
+"$bin/shape-statistics" long?.obj stout?.obj --modes 1 --output herd.modes
+"$bin/shape-statistics" herd.modes --at -1.2 --output low.obj
+"$bin/shape-statistics" herd.modes --at 1.2 --output high.obj
+"$bin/shape-interpolate" low.obj high.obj --output still.path
+still still.path "$pictures/still-modes.png"
+
+cat > turn.json <<'EOF'
+{"handles": [
+  {"name": "feet", "fixed": true, "select": {"box": {"low": [-1, 0, -1], "high": [1, 0.1, 1]}}},
+  {"name": "head", "rotation": {"axis": [0, 1, 0], "degrees": -80},
+   "select": {"box": {"low": [-1, 1.25, 0.5], "high": [1, 2, 2]}}}
+]}
+EOF
+"$bin/shape-deform" pose0.obj --handles turn.json --up y --output still.path
+still still.path "$pictures/still-handles.png"
+
+# README, guide/first-path.md
 "$bin/shape-interpolate" animal0.obj animal1.obj --shapes 15 \
   --output "walk.path,$pictures/first-path.png"
 

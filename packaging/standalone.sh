@@ -5,10 +5,10 @@
 . "$project/packaging/root.sh"
 systems=$(out_folder "$project/build/standalone")
 
-# What is built needs nothing of these when it runs: they are tools, headers, and a zlib that is linked
-# statically. What else is linked comes from static_libraries.sh.
+# What is built needs nothing of these when it runs: they are tools, headers, and giflib and zlib, which
+# are linked statically. What else is linked comes from static_libraries.sh.
 build_packages=(cmake g++ make ninja-build ccache xz-utils help2man
-  libeigen3-dev libstb-dev libtinygltf-dev libxxhash-dev nlohmann-json3-dev zlib1g-dev
+  libeigen3-dev libgif-dev libstb-dev libtinygltf-dev libxxhash-dev nlohmann-json3-dev zlib1g-dev
   pybind11-dev python3-dev python3-numpy python3-pip)
 
 with_ccache="export CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache"
@@ -60,6 +60,7 @@ standalone_build() {
       -DCMAKE_PREFIX_PATH=/opt/static -DPython_EXECUTABLE=/usr/bin/python3 \
       -DBLAS_blas_LIBRARY=/opt/static/lib/libopenblas.a \
       -DLAPACK_lapack_LIBRARY=/opt/static/lib/libopenblas.a -DLAPACK_lapack_WORKS=ON \
+      -DGIF_LIBRARY=/usr/lib/x86_64-linux-gnu/libgif.a \
       -DZLIB_LIBRARY=/usr/lib/x86_64-linux-gnu/libz.a \
       -DCMAKE_CXX_FLAGS='-ffunction-sections -fdata-sections -ffile-prefix-map=/root/=' \
       -DCMAKE_MODULE_LINKER_FLAGS=-Wl,--gc-sections \

@@ -4,9 +4,9 @@
 # installs them all, or those that are named, such as ceres-solver, and their licences into
 # PREFIX/licenses. Debian's own packages do not serve for a wheel: most have no static library that a
 # Python module can link, shared ones would meet Blender's Embree and TBB in one process, and Ceres links
-# SuiteSparse, parts of which are under the GPL. Here it has Eigen's sparse solver alone. zlib is Debian's.
-# Needs g++, cmake, ninja-build, make, xz-utils, libeigen3-dev and zlib1g-dev, and network. What is built
-# already is not built again.
+# SuiteSparse, parts of which are under the GPL. Here it has Eigen's sparse solver alone. giflib and
+# zlib are Debian's. Needs g++, cmake, ninja-build, make, xz-utils, libeigen3-dev, libgif-dev and
+# zlib1g-dev, and network. What is built already is not built again.
 set -euo pipefail
 
 prefix=$(mkdir -p "${1:?static_libraries.sh: say the folder to install into}" && cd "$1" && pwd)
@@ -17,6 +17,7 @@ libraries=("${@:-${all[@]}}")
 work=$prefix/src
 mkdir -p "$work" "$prefix/licenses"
 cp /usr/share/doc/zlib1g-dev/copyright "$prefix/licenses/zlib"
+cp /usr/share/doc/libgif-dev/copyright "$prefix/licenses/giflib"
 cd "$work"
 
 # Fetches Debian 12's sources on any Debian, without changing what apt knows of: the originals, without

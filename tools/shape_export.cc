@@ -62,11 +62,12 @@ void Run(const std::vector<std::string>& files) {
                        ": a path at other times is not a geodesic; export meshes or pictures");
     }
   }
-  const bool makes_glb = std::any_of(outputs.begin(), outputs.end(), [](const auto& output) {
-    return internal::FileExtension(output) == ".glb";
+  const bool plays = std::any_of(outputs.begin(), outputs.end(), [](const auto& output) {
+    const std::string extension = internal::FileExtension(output);
+    return extension == ".glb" || extension == ".gif" || extension == ".apng";
   });
-  if (FLAGS_ease && FLAGS_frames == 0 && !makes_glb) {
-    throw UsageError("--ease goes with --frames, or with a .glb");
+  if (FLAGS_ease && FLAGS_frames == 0 && !plays) {
+    throw UsageError("--ease goes with --frames, or with a .gif, .apng or .glb");
   }
   AnchorFlags anchorage = AnchorFlags::FromFlags();
   const Path path = ReadPathAndTell(files[0]);

@@ -50,6 +50,18 @@ void Write(const Path& path, const std::string& file, const py::dict& given) {
       take("color", &options.colours);
       Set(given, &options.film_strip, taken);
       break;
+    case Kind::kPictures:
+    case Kind::kFilm:
+      take("color", &options.colours);
+      take("width", &options.film_width);
+      if (output.kind == Kind::kFilm) {
+        take("duration", &options.gltf.duration);
+        take("fps", &options.gltf.fps);
+        take("playback", &options.gltf.playback);
+        take("ease", &options.gltf.ease);
+      }
+      Set(given, &options.film_strip, taken);
+      break;
     case Kind::kGltf:
       take("color", &options.colours);
       Set(given, &options.gltf, taken);
@@ -134,12 +146,15 @@ void BindFiles(py::class_<Path>* path) {
 Parameters
 ----------
 file : str or path-like
-    Its extension is the format: .path (everything, to continue from), .png (film strip), .glb
-    (animation for browsers and Blender), .usda (animation, text of USD), .html (a page for browsers), .pc2 or .mdd (point cache
-    for Blender, Maya, Houdini, 3ds Max), numbered meshes such as frames/%03d.obj, .ply, .off or
-    .stl, or frames/%03d.vtp with deviation and energy at every point, for ParaView.
+    Its extension is the format: .path (everything, to continue from), .png (film strip), .gif
+    or .apng (moving picture), .glb (animation for browsers and Blender), .usda (animation, text of
+    USD), .html (a page for browsers), .pc2 or .mdd (point cache for Blender, Maya, Houdini, 3ds
+    Max), numbered meshes such as frames/%03d.obj, .ply, .off or .stl, numbered pictures
+    (frames/%03d.png), or frames/%03d.vtp with deviation and energy at every point, for ParaView.
 **options
-    Of `film_strip` for .png; of `GltfOptions` for .glb; for these, .usda and meshes `color`, which
+    Of `film_strip` for .png; the same for numbered pictures, .gif and .apng, with `width`, the
+    longer side in pixels, and for .gif and .apng `duration`, `fps`, `playback` and `ease` of
+    `GltfOptions`; all of these for .glb; for these, .usda and meshes `color`, which
     is 'plain', 'deviation' or 'parts' (colours of vertices in .obj and .ply); for .mdd and .usda
     `fps`, shapes per second; for .usda also `up`, 'y' or 'z', and `unit`, metres in one of the
     shapes' units. The others take none.

@@ -1,11 +1,14 @@
 #include <shapespace/output/path_output.h>
 
+#include <filesystem>
+
 #include <shapespace/analysis/quality.h>
 #include <shapespace/analysis/rigid_parts.h>
 #include <shapespace/base/error.h>
 #include <shapespace/bodies/bar.h>
 #include <shapespace/files/read.h>
 #include <shapespace/files/write.h>
+#include <shapespace/output/film.h>
 #include <shapespace/output/frames.h>
 #include <shapespace/output/point_cache.h>
 #include <shapespace/output/vertex_colours.h>
@@ -27,11 +30,13 @@ class PathOutputTest : public testing::FilesTest {
 };
 
 TEST_F(PathOutputTest, NamesThatStandForNothingAreRefused) {
-  for (const auto& [name, words] : {std::make_pair("walk.mp4", "must end in .path"),
+  for (const auto& [name, words] : {std::make_pair("walk.mp4", "ffmpeg"),
+                                    {"walk.jpg", "must end in .path"},
                                     {"walk", "must end in .path"},
                                     {"walk.obj", "needs one number"},
                                     {"walk%d%d.vtp", "needs one number"},
-                                    {"walk%03d.png", "one .png contains the whole path"}}) {
+                                    {"walk%d%d.png", "needs one number"},
+                                    {"walk%03d.gif", "one .gif contains the whole path"}}) {
     const std::string message =
         testing::MessageOf<FileError>([&, name = name] { PathOutput::Of(name); });
     EXPECT_NE(message.find(words), std::string::npos) << name << ": " << message;
@@ -151,6 +156,45 @@ TEST_F(PathOutputTest, FilmStripsAreThoseOfTheirOptions) {
   options.parts.resize(0);
   expected.groups = FindRigidParts(path_).of_vertex;
   EXPECT_EQ(written(), drawn());
+}
+
+// All shapes are seen in one frame, and the first and the last have the colour of poses.
+TEST_F(PathOutputTest, PicturesOfShapesAreThoseOfAFilmWithTheirRoles) {
+  PathOutputOptions options;
+  options.film_width = 90;
+  WritePathOutput(PathOutput::Of(Path("bar%02d.png")), path_, options);
+  FilmStripOptions drawn;
+  drawn.frame_width = 90;
+  drawn.roles = {ShapeRole::kPose, ShapeRole::kInserted, ShapeRole::kPose};
+  const std::vector<RgbImage> pictures = RenderFilm(*bar_.connectivity, path_.Placed(), drawn);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(testing::Content(Path("bar0" + std::to_string(i) + ".png")), EncodePng(pictures[i]));
+  }
+  EXPECT_FALSE(std::filesystem::exists(Path("bar03.png")));
+}
+
+TEST_F(PathOutputTest, AFilmShowsThePathBetweenItsShapesToo) {
+  PathOutputOptions options;
+  options.film_width = 60;
+  options.gltf.duration = 0.2;  // five pictures
+  options.gltf.playback = GltfPlayback::kLoop;
+  WritePathOutput(PathOutput::Of(Path("bar.gif")), path_, options);
+  WritePathOutput(PathOutput::Of(Path("bar.apng")), path_, options);
+  FilmStripOptions drawn;
+  drawn.frame_width = 60;
+  // At .2 and .4 of the path; the shape in the middle is the nearest from .25 to .75.
+  drawn.roles = {ShapeRole::kPose, ShapeRole::kPose, ShapeRole::kInserted, ShapeRole::kInserted,
+                 ShapeRole::kPose};
+  Film film;
+  film.pictures =
+      RenderFilm(*bar_.connectivity, Resample(path_, {0, .2, .4, .6, .8}).Placed(), drawn);
+  film.order = {0, 1, 2, 3, 4};
+  film.seconds.assign(5, .04);
+  EXPECT_EQ(testing::Content(Path("bar.gif")), EncodeGif(film));
+  EXPECT_EQ(testing::Content(Path("bar.apng")), EncodeApng(film));
+  options.gltf.playback = GltfPlayback::kOnce;
+  WritePathOutput(PathOutput::Of(Path("once.gif")), path_, options);
+  EXPECT_EQ(testing::Content(Path("once.gif")).find("NETSCAPE"), std::string::npos);
 }
 
 TEST_F(PathOutputTest, MeshesAndAnimationsHaveTheColoursThatAreAskedFor) {

@@ -238,6 +238,44 @@ TEST_F(OutputsTest, NamesMayBeInCapitalsAndStandApart) {
   Succeed("shape-body", {"bar", "--output", "bar%d.PLY"});
 }
 
+TEST_F(OutputsTest, FilmsAndPicturesOfShapesAreWritten) {
+  MakeWalk();
+  const Outcome outcome = Succeed(
+      "shape-export", {"walk.path", "--seconds", "0.2", "--output", "a.gif,a.apng,in/%02d.png"});
+  for (const char* name : {"a.gif", "a.apng", "in/00.png", "in/04.png"}) {
+    ExpectContains(outcome.out, name);
+  }
+  EXPECT_EQ(Content(Path("a.gif")).substr(0, 6), "GIF89a");
+  ExpectContains(Content(Path("a.apng")), "acTL");
+  // Pictures of shapes are PNG files of one size.
+  for (const char* name : {"in/01.png", "in/02.png", "in/03.png", "in/04.png"}) {
+    EXPECT_EQ(Content(Path(name)).substr(0, 24), Content(Path("in/00.png")).substr(0, 24)) << name;
+  }
+  EXPECT_FALSE(std::filesystem::exists(Path("in/05.png")));
+  const Outcome refused = Run("shape-export", {"walk.path", "--output", "a.png,in/%d.gif"});
+  EXPECT_EQ(refused.code, 2);
+  ExpectContains(refused.err, "in/%d.gif");
+  EXPECT_FALSE(std::filesystem::exists(Path("a.png")));
+  Succeed("shape-export",
+          {"walk.path", "--seconds", "0.2", "--labels", "a,b", "--output", "labelled/%02d.png"});
+  EXPECT_NE(Content(Path("labelled/00.png")), Content(Path("in/00.png")));
+  std::filesystem::create_symlink(Path("walk.path"), Path("link2.png"));
+  ExpectContains(Run("shape-export", {"walk.path", "--output", "link%d.png"}).err, "link2.png");
+}
+
+// The last shape of a cycle is its first, so that it goes on instead of back.
+TEST_F(OutputsTest, ACycleIsPlayedAround) {
+  MakeTubes();
+  Succeed("shape-interpolate", {"tube0.obj", "tube1.obj", "tube0.obj", "--shapes", "1", "--seconds",
+                                "2", "--output", "cycle.glb,cycle.path"});
+  // With rests at both ends there would be more times than shapes.
+  EXPECT_EQ(Times("cycle.glb").size(), 5u);
+  Succeed("shape-export", {"cycle.path", "--once", "--output", "once.glb"});
+  EXPECT_EQ(Times("once.glb").size(), 6u);
+  Succeed("shape-interpolate", {"tube0.obj", "tube1.obj", "--shapes", "3", "--output", "back.glb"});
+  EXPECT_GT(Times("back.glb").size(), 6u);
+}
+
 TEST_F(OutputsTest, FlagsSetTheTimesOfAGlb) {
   MakeWalk();
   const auto times = [&](Strings flags) {

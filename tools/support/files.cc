@@ -21,8 +21,8 @@ namespace shapespace::tools {
 namespace {
 
 bool IsFramePattern(const std::string& file) {
-  return (IsWritableMesh(file) || internal::FileExtension(file) == ".vtp") &&
-         file.find('%') != file.npos;
+  const std::string extension = internal::FileExtension(file);
+  return (IsWritableMesh(file) || extension == ".vtp" || extension == ".png") && IsNumbered(file);
 }
 
 }  // namespace

@@ -23,40 +23,43 @@
 #include "support/tool.h"
 #include "viewer/page.h"
 
-DEFINE_string(output, "path.png",
-              "files to write, separated by commas: .path (the complete result, for other tools), "
-              ".png (film strip), .glb (animation, for browsers and Blender), .usda (animation, "
-              "for programs that read USD), .pc2 or .mdd (point "
-              "cache, for Blender, Maya, Houdini, 3ds Max), .html (a page for browsers), "
-              "frames/%03d.obj, .ply, .off or .stl "
-              "(one mesh per shape), frames/%03d.vtp (with deviation and energy, for ParaView). "
-              "Names must not contain commas");
+DEFINE_string(
+    output, "path.png",
+    "files to write, separated by commas: .path (the complete result, for other tools), "
+    ".png (film strip), .gif or .apng (moving picture), .glb (animation, for browsers and "
+    "Blender), .usda (animation, for programs that read USD), .pc2 or .mdd (point cache, "
+    "for Blender, Maya, Houdini, 3ds Max), .html (a page for browsers), "
+    "frames/%03d.obj, .ply, .off or .stl (one mesh per shape), frames/%03d.png (one "
+    "picture per shape), frames/%03d.vtp (with deviation and energy, for ParaView). "
+    "Names must not contain commas");
 DEFINE_string(
     color, "plain",
-    "film strip, glb, usda, and frames in OBJ or PLY: plain, deviation (of edge lengths from "
+    "pictures, glb, usda, and frames in OBJ or PLY: plain, deviation (of edge lengths from "
     "the first pose), or parts (regions that move nearly rigidly)");
 
-DEFINE_string(
-    up, "",
-    "the axis of the poses that points up, y or z; without, film strips choose, and glb and "
-    "usda take y");
+DEFINE_string(up, "",
+              "the axis of the poses that points up, y or z; without, pictures choose, and glb and "
+              "usda take y");
 DEFINE_double(unit, 1, "glb, usda: metres in one unit of the poses; 0.001 for millimetres");
-DEFINE_double(seconds, 4, "glb: duration");
+DEFINE_double(seconds, 4, "gif, apng, glb: duration");
 DEFINE_double(
     fps, 0,
-    "glb: shapes of the path per second, instead of --seconds; mdd, usda: the same, 24 without");
+    "gif, apng, glb: shapes of the path per second, instead of --seconds; mdd, usda: the same, 24 "
+    "without");
 DEFINE_bool(loop, false,
-            "glb: from the first shape to the last and again from the first, for motions that end "
-            "where they begin; default: forward and back");
-DEFINE_bool(once, false, "glb: from the first shape to the last, which is then held");
-DEFINE_bool(ease, false,
-            "glb, and frames of shape-export --frames: the motion begins and ends slowly");
-DEFINE_string(title, "", "film strip: a line above it");
+            "gif, apng, glb: from the first shape to the last and again from the first, as without "
+            "this flag for motions whose last shape is the first; other motions: forward and back");
+DEFINE_bool(once, false, "gif, apng, glb: from the first shape to the last, which is then held");
+DEFINE_bool(
+    ease, false,
+    "gif, apng, glb, and frames of shape-export --frames: the motion begins and ends slowly");
+DEFINE_string(title, "", "pictures: a line above them");
 DEFINE_string(labels, "",
-              "film strip: texts under the shapes, separated by commas, one for each shape or one "
-              "for each pose; or none; default: the number of each shape, from 0, and its time");
+              "film strip, numbered png: texts under the shapes, separated by commas, one for each "
+              "shape or one for each pose; or none; film strips without this flag have the number "
+              "of each shape, from 0, and its time");
 DEFINE_string(ground_line, "",
-              "film strip: draw a line on the ground at this height, seen from the side, and the "
+              "pictures: draw a line on the ground at this height, seen from the side, and the "
               "shapes where they are, so that feet that slide or sink are seen; without, each "
               "shape is in the middle of its cell. Moves no shape, as --ground would");
 FLAG_GROUP(outputs, "Output", "color, output, seconds");
@@ -65,6 +68,10 @@ namespace shapespace::tools {
 namespace {
 
 bool writes_last_shape_alone = false;
+
+// Shapes whose vertices are nearer to each other than this, in diagonals of the bounding box, are
+// the same.
+constexpr double kSameShape = 1e-6;
 
 PathOutput OutputOf(const std::string& name, const std::string& flag = "output") {
   if (name == "-" && writes_last_shape_alone) return {name, PathOutput::Kind::kLastShape};
@@ -127,6 +134,13 @@ std::vector<std::string> LabelsFromFlag(const Path& path) {
   return labels;
 }
 
+// Whether the motion ends where it begins, but for rounding errors.
+bool IsCycle(const Path& path) {
+  const Shape first = path.Placed(0), last = path.Placed(path.NumShapes() - 1);
+  const double size = (first.rowwise().maxCoeff() - first.rowwise().minCoeff()).norm();
+  return path.NumShapes() > 2 && (last - first).cwiseAbs().maxCoeff() <= kSameShape * size;
+}
+
 PathOutputOptions OptionsFromFlags() {
   PathOutputOptions options;
   options.colours = EnumFromFlag<PathColours>("color", FLAGS_color);
@@ -161,7 +175,7 @@ void Write(const PathOutput& output, const Path& path, const PathOutputOptions& 
     Note(output.file, ": the last colour stands for a deviation of ", 100 * summary.colour_end,
          "%");
   }
-  if (output.kind == Kind::kFrames || output.kind == Kind::kVtk) {
+  if (output.kind == Kind::kFrames || output.kind == Kind::kVtk || output.kind == Kind::kPictures) {
     TellFrames(output.file, path.NumShapes());
   } else {
     Out() << "wrote " << output.file << '\n';
@@ -201,6 +215,7 @@ void WriteOutputs(const std::vector<std::string>& outputs, const Path& path, con
   std::vector<std::string> paths_first = outputs;
   std::stable_partition(paths_first.begin(), paths_first.end(), IsPathFile);
   PathOutputOptions options = OptionsFromFlags();
+  if (!FLAGS_once && IsCycle(path)) options.gltf.playback = GltfPlayback::kLoop;
   options.reference = whole.shapes[0];
   options.film_strip.marks = marks;
   for (const std::string& output : paths_first) {
@@ -210,7 +225,8 @@ void WriteOutputs(const std::vector<std::string>& outputs, const Path& path, con
       if (!IsPathFile(output) && FLAGS_color == "parts" && options.parts.size() == 0) {
         options.parts = FindRigidParts(whole).of_vertex;
       }
-      if (OutputOf(output).kind == PathOutput::Kind::kFilmStrip) {
+      const PathOutput::Kind kind = OutputOf(output).kind;
+      if (kind == PathOutput::Kind::kFilmStrip || kind == PathOutput::Kind::kPictures) {
         options.film_strip.labels = LabelsFromFlag(path);
       }
       Write(OutputOf(output), path, options);

@@ -21,7 +21,7 @@ std::vector<std::string> OutputsFromFlags();
 /// The same for another flag with the value `list`.
 std::vector<std::string> OutputsFromFlag(const std::string& flag, const std::string& list);
 
-/// Writes each output, the `.path` files first, with messages: `.path`, `.png` film strip, `.glb`
+/// Writes each output, the `.path` files first, with messages: `.path`, pictures, `.glb`
 /// animation, or frames (`frames/%03d.obj`, `.ply`). If one fails, an error is printed and the
 /// others are written. After `Interrupted`, only `.path` files are. Notes on stderr tell which
 /// parts of the appearance a format cannot store. `whole` is the path whose shapes `path` contains,

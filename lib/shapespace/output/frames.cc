@@ -8,6 +8,11 @@
 
 namespace shapespace {
 
+bool IsNumbered(const std::string& file) {
+  static const std::regex number("%0?[1-9]?d");
+  return std::regex_search(file, number);
+}
+
 std::string FrameName(const std::string& pattern, int number) {
   static const std::regex place("^([^%]*)%(0?)([1-9]?)d([^%]*)$");
   std::smatch match;

@@ -10,6 +10,9 @@
 
 namespace shapespace {
 
+/// Whether the name has a place for a number, `%d`, `%3d` or `%03d`.
+bool IsNumbered(const std::string& file);
+
 /// The name of frame `number`: `pattern` with its one %d, %3d or %03d replaced.
 /// \throw FileError if the pattern has no such place or more than one.
 std::string FrameName(const std::string& pattern, int number);

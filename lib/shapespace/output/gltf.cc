@@ -21,7 +21,6 @@
 #include <shapespace/base/internal/check_range.h>
 #include <shapespace/base/internal/json.h>
 #include <shapespace/base/internal/read_file.h>
-#include <shapespace/base/internal/sort_unique.h>
 #include <shapespace/base/internal/within_folder.h>
 #include <shapespace/files/internal/tinygltf.h>
 #include <shapespace/mesh/internal/geometry.h>
@@ -29,6 +28,7 @@
 #include <shapespace/output/detail/key_shapes.h>
 #include <shapespace/output/detail/legend.h>
 #include <shapespace/output/detail/materials.h>
+#include <shapespace/output/detail/playback.h>
 #include <shapespace/output/detail/seams.h>
 #include <shapespace/output/internal/colour.h>
 
@@ -40,12 +40,6 @@ using tinygltf::Value;
 
 // More morph targets are slow in browsers, without a visible improvement.
 constexpr int kMaxKeys = 32;
-
-// Share of the duration for which the shapes rest at each end.
-constexpr double kRest = 0.1;
-
-// The speed of an eased motion is constant between this number of points of time.
-constexpr int kEasePoints = 64;
 
 constexpr double kRoughness = 0.7;
 
@@ -241,43 +235,12 @@ void AddColours(const Eigen::MatrixXf& colours, const std::vector<int>& source,
           TINYGLTF_TARGET_ARRAY_BUFFER, model);
 }
 
-// Pairs of time and parameter (0 to 1) of the path that define the animation.
-std::vector<std::pair<double, double>> Moments(const std::vector<double>& parameters, int shapes,
-                                               const GltfOptions& options) {
-  std::vector<double> points = parameters;
-  if (options.ease) {
-    for (int i = 1; i < kEasePoints; ++i) {
-      points.push_back((1 - std::cos(internal::kPi * i / kEasePoints)) / 2);
-    }
-    internal::SortUnique(&points);
-  }
-  const bool back = options.playback == GltfPlayback::kThereAndBack;
-  const bool held = options.playback == GltfPlayback::kOnce;
-  // Share of the duration for the way from the first shape to the last.
-  const double share = back ? 0.5 - kRest : held ? 1 - kRest : 1.0;
-  const double duration = options.fps > 0 ? (shapes - 1) / options.fps / share : options.duration;
-  const double begin = back ? kRest / 2 * duration : 0;
-  std::vector<std::pair<double, double>> moments;
-  if (back) moments.emplace_back(0, 0);
-  for (const double point : points) {
-    const double time = options.ease ? std::acos(1 - 2 * point) / internal::kPi : point;
-    moments.emplace_back(begin + share * duration * time, point);
-  }
-  if (back) {
-    for (size_t i = points.size(); i > 0; --i) {
-      moments.emplace_back(duration - moments[i].first, points[i - 1]);
-    }
-    moments.emplace_back(duration, 0);
-  }
-  if (held) moments.emplace_back(duration, 1);
-  return moments;
-}
-
 // The weights of the morph targets over time. `parameters`, of the key shapes, increase from 0 to
 // 1; `shapes` is the number of shapes of the whole path.
 tinygltf::Animation AddAnimation(const std::vector<double>& parameters, int shapes,
                                  const GltfOptions& options, Model* model) {
-  const std::vector<std::pair<double, double>> moments = Moments(parameters, shapes, options);
+  const std::vector<std::pair<double, double>> moments =
+      internal::PlaybackMoments(parameters, shapes, options);
   Eigen::RowVectorXf times(moments.size());
   Eigen::MatrixXf weights = Eigen::MatrixXf::Zero(parameters.size() - 1, moments.size());
   float least = 0;

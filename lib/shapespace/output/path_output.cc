@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <iomanip>
 #include <map>
-#include <regex>
 #include <sstream>
 #include <utility>
 
@@ -12,7 +11,10 @@
 #include <shapespace/analysis/rigid_parts.h>
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/extension.h>
+#include <shapespace/base/parallel.h>
 #include <shapespace/files/write.h>
+#include <shapespace/output/detail/film_times.h>
+#include <shapespace/output/film.h>
 #include <shapespace/output/frames.h>
 #include <shapespace/output/page.h>
 #include <shapespace/output/point_cache.h>
@@ -40,6 +42,12 @@ class Writer {
         break;
       case PathOutput::Kind::kFilmStrip:
         WriteFilmStrip();
+        break;
+      case PathOutput::Kind::kPictures:
+        WritePictures();
+        break;
+      case PathOutput::Kind::kFilm:
+        WritePathFilm();
         break;
       case PathOutput::Kind::kGltf:
         WriteGlb();
@@ -76,14 +84,12 @@ class Writer {
     return options_.parts.size() > 0 ? options_.parts : FindRigidParts(path_).of_vertex;
   }
 
-  void WriteFilmStrip() const {
+  // Options of pictures of `shown`, which may have other shapes of the path.
+  FilmStripOptions PictureOptions(const Path& shown) const {
     FilmStripOptions options = options_.film_strip;
-    FilmStripOptions own = FilmStripOf(path_);
-    if (options.roles.empty()) options.roles = std::move(own.roles);
-    if (options.labels.empty()) options.labels = std::move(own.labels);
     if (ByDeviation()) {
       const Shape& reference = options_.reference.size() > 0 ? options_.reference : path_.shapes[0];
-      for (const Shape& shape : path_.shapes) {
+      for (const Shape& shape : shown.shapes) {
         options.values.push_back(EdgeDeviation(*path_.metric, reference, shape));
       }
       options.legend = "edge length, deviation from the first pose";
@@ -91,7 +97,45 @@ class Writer {
       options.groups = Parts();
       options.legend = "near-rigid parts, by size";
     }
+    return options;
+  }
+
+  void WriteFilmStrip() const {
+    FilmStripOptions options = PictureOptions(path_);
+    FilmStripOptions own = FilmStripOf(path_);
+    if (options.roles.empty()) options.roles = std::move(own.roles);
+    if (options.labels.empty()) options.labels = std::move(own.labels);
     WritePng(file_, RenderFilmStrip(*path_.metric->connectivity, path_.Placed(), options));
+  }
+
+  void WritePictures() const {
+    FilmStripOptions options = PictureOptions(path_);
+    options.frame_width = options_.film_width;
+    if (options.roles.empty()) options.roles = FilmStripOf(path_).roles;
+    const std::vector<RgbImage> pictures =
+        RenderFilm(*path_.metric->connectivity, path_.Placed(), options);
+    ParallelFor(path_.NumShapes(), [&](int i) { WritePng(FrameName(file_, i), pictures[i]); });
+  }
+
+  void WritePathFilm() const {
+    const internal::FilmTimes times = internal::ChooseFilmTimes(path_, options_.gltf);
+    const Path shown = Resample(path_, times.parameters);
+    FilmStripOptions options = PictureOptions(shown);
+    options.frame_width = options_.film_width;
+    options.labels.clear();
+    // Shapes of the film have the role of the nearest shape of the path.
+    const std::vector<ShapeRole> roles =
+        options.roles.empty() ? FilmStripOf(path_).roles : options.roles;
+    options.roles.clear();
+    for (const double parameter : times.parameters) {
+      options.roles.push_back(roles[internal::NearestParameter(path_.parameters, parameter)]);
+    }
+    Film film;
+    film.pictures = RenderFilm(*path_.metric->connectivity, shown.Placed(), options);
+    film.order = times.order;
+    film.seconds.assign(times.order.size(), times.seconds);
+    film.repeats = options_.gltf.playback != GltfPlayback::kOnce;
+    WriteFilm(file_, film);
   }
 
   void WriteGlb() {
@@ -146,23 +190,33 @@ class Writer {
 
 PathOutput PathOutput::Of(const std::string& file, bool last_shape_alone) {
   static const std::map<std::string, Kind> kinds = {
-      {".path", Kind::kPath},      {".png", Kind::kFilmStrip},  {".glb", Kind::kGltf},
-      {".pc2", Kind::kPointCache}, {".mdd", Kind::kPointCache}, {".vtp", Kind::kVtk},
-      {".html", Kind::kPage},      {".usda", Kind::kUsd}};
+      {".path", Kind::kPath}, {".png", Kind::kFilmStrip},  {".gif", Kind::kFilm},
+      {".apng", Kind::kFilm}, {".glb", Kind::kGltf},       {".pc2", Kind::kPointCache},
+      {".vtp", Kind::kVtk},   {".mdd", Kind::kPointCache}, {".html", Kind::kPage},
+      {".usda", Kind::kUsd}};
   const std::string extension = internal::FileExtension(file);
   const auto known = kinds.find(extension);
   const bool is_mesh = IsWritableMesh(file);
+  if (extension == ".mp4" || extension == ".mov" || extension == ".webm") {
+    throw FileError(file +
+                    ": films are written as .gif, as .apng, or as numbered .png, such as "
+                    "film/%03d.png, of which video programs make others: ffmpeg -framerate 25 -i "
+                    "film/%03d.png " +
+                    file);
+  }
   if (known == kinds.end() && !is_mesh) {
     throw FileError(file +
-                    ": must end in .path, .png, .glb, .usda, .html, .pc2, .mdd, .obj, .ply, .off, "
-                    ".stl or .vtp");
+                    ": must end in .path, .png, .gif, .apng, .glb, .usda, .html, .pc2, .mdd, .obj, "
+                    ".ply, .off, .stl or .vtp");
   }
   if (is_mesh && last_shape_alone && file.find('%') == file.npos) return {file, Kind::kLastShape};
-  const Kind kind = is_mesh ? Kind::kFrames : known->second;
-  if (kind == Kind::kFrames || kind == Kind::kVtk) {
+  const bool is_numbered = IsNumbered(file);
+  Kind kind = is_mesh ? Kind::kFrames : known->second;
+  if (kind == Kind::kFilmStrip && is_numbered) kind = Kind::kPictures;
+  if (kind == Kind::kFrames || kind == Kind::kVtk || kind == Kind::kPictures) {
     FrameName(file, 0);
-  } else if (static const std::regex number("%0?[1-9]?d"); std::regex_search(file, number)) {
-    throw FileError(file + ": only meshes and .vtp are numbered; one " + extension +
+  } else if (is_numbered) {
+    throw FileError(file + ": only meshes, .vtp and .png are numbered; one " + extension +
                     " contains the whole path");
   }
   return {file, kind};

@@ -19,6 +19,8 @@ struct PathOutput {
   enum class Kind {
     kPath,        ///< .path: the complete result
     kFilmStrip,   ///< .png
+    kPictures,    ///< a pattern of .png, one for each shape, as for frames
+    kFilm,        ///< .gif or .apng, a moving picture
     kGltf,        ///< .glb, an animation
     kPointCache,  ///< .pc2 or .mdd
     kFrames,      ///< a pattern of meshes (`FrameName`): .obj, .ply, .off or .stl
@@ -52,6 +54,12 @@ struct PathOutputOptions {
   /// Of film strips. Roles and labels that are empty are those of the path: given, inserted or
   /// extrapolated, and number and parameter.
   FilmStripOptions film_strip;
+
+  /// `frame_width` of films and of pictures of single shapes, 16 .. 2048, which are drawn with the
+  /// options of film strips otherwise, and have no labels unless they are given.
+  int film_width = 480;
+
+  /// Films are played by the same `duration`, `fps`, `playback` and `ease`.
   GltfOptions gltf;
   double point_cache_fps = 24;
   UsdOptions usd;             ///< but colours, which are those of `colours`
@@ -67,7 +75,9 @@ struct PathOutputSummary {
 /// Options of the film strip of a path: roles and labels of its shapes.
 FilmStripOptions FilmStripOf(const Path& path);
 
-/// Writes the path. Each file is written completely or not at all.
+/// Writes the path. Each file is written completely or not at all. All pictures of a film, and all
+/// of single shapes, show the same part of the world from one camera. A film has 25 pictures a
+/// second, of the path at these times (`Resample`), or fewer where they would be more than 600.
 /// \throw InvalidOptions, FileError, MeshError as the functions that write each kind.
 PathOutputSummary WritePathOutput(const PathOutput& output, const Path& path,
                                   const PathOutputOptions& options = {});

@@ -1,18 +1,15 @@
-#include <zlib.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
-#include <map>
 #include <optional>
 #include <ostream>
-#include <string_view>
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/atomic_file.h>
-#include <shapespace/base/internal/bytes.h>
+#include <shapespace/output/detail/palette.h>
+#include <shapespace/output/detail/png_chunks.h>
 #include <shapespace/output/picture.h>
 
 // PNG as in https://www.w3.org/TR/png-3: colours of a palette where 256 are enough, else RGB.
@@ -20,43 +17,9 @@
 namespace shapespace {
 namespace {
 
-using internal::AppendBigEndian;
 using PngBytes = std::vector<unsigned char>;
 
 constexpr int kMostColours = 256;
-constexpr unsigned char kTrueColour = 2, kIndexed = 3;  // kinds of pixels, as the format has them
-
-void AppendChunk(const std::string& name, std::string_view data, std::string* out) {
-  AppendBigEndian(static_cast<std::uint32_t>(data.size()), out);
-  const std::string content = name + std::string(data);
-  *out += content;
-  AppendBigEndian(static_cast<std::uint32_t>(
-                      crc32_z(0, reinterpret_cast<const Bytef*>(content.data()), content.size())),
-                  out);
-}
-
-// The colours of a picture as the bytes of a palette, and the number of each pixel's colour.
-struct Palette {
-  std::string colours;
-  PngBytes pixels;
-};
-
-std::optional<Palette> PaletteOf(const RgbImage& image) {
-  Palette palette;
-  std::map<std::array<unsigned char, 3>, unsigned char> numbers;
-  for (size_t i = 0; i < image.pixels.size(); i += 3) {
-    const std::array<unsigned char, 3> colour = {image.pixels[i], image.pixels[i + 1],
-                                                 image.pixels[i + 2]};
-    const auto [entry, is_new] =
-        numbers.emplace(colour, static_cast<unsigned char>(numbers.size()));
-    if (is_new) {
-      if (numbers.size() > kMostColours) return {};
-      palette.colours.append(colour.begin(), colour.end());
-    }
-    palette.pixels.push_back(entry->second);
-  }
-  return palette;
-}
 
 // What the byte `left` + `up` - `corner` is nearest to (the filter that is Paeth's).
 int Paeth(int left, int up, int corner) {
@@ -98,28 +61,6 @@ PngBytes Filtered(const PngBytes& pixels, size_t row_bytes, size_t pixel_bytes) 
   return filtered;
 }
 
-// Rows as they are, each preceded by the number of no filter: best for numbers of colours.
-PngBytes Unfiltered(const PngBytes& pixels, size_t row_bytes) {
-  PngBytes rows;
-  rows.reserve(pixels.size() + pixels.size() / row_bytes);
-  for (auto row = pixels.begin(); row != pixels.end(); row += static_cast<ptrdiff_t>(row_bytes)) {
-    rows.push_back(0);
-    rows.insert(rows.end(), row, row + static_cast<ptrdiff_t>(row_bytes));
-  }
-  return rows;
-}
-
-std::string Compressed(const PngBytes& bytes) {
-  uLongf size = compressBound(bytes.size());
-  std::string compressed(size, '\0');
-  if (compress2(reinterpret_cast<Bytef*>(compressed.data()), &size, bytes.data(), bytes.size(),
-                Z_BEST_COMPRESSION) != Z_OK) {
-    throw InvalidOptions("image", "could not be compressed (out of memory?)");
-  }
-  compressed.resize(size);
-  return compressed;
-}
-
 }  // namespace
 
 std::string EncodePng(const RgbImage& image) {
@@ -133,21 +74,18 @@ std::string EncodePng(const RgbImage& image) {
                                       std::to_string(image.width) + " x " +
                                       std::to_string(image.height) + " pixels of three");
   }
-  const std::optional<Palette> palette = PaletteOf(image);
-  std::string header;
-  AppendBigEndian(static_cast<std::uint32_t>(image.width), &header);
-  AppendBigEndian(static_cast<std::uint32_t>(image.height), &header);
-  header += {8, static_cast<char>(palette ? kIndexed : kTrueColour), 0, 0, 0};
-  std::string bytes = "\x89PNG\r\n\x1a\n";
-  AppendChunk("IHDR", header, &bytes);
-  AppendChunk("sRGB", std::string(1, '\0'), &bytes);
-  if (palette) AppendChunk("PLTE", palette->colours, &bytes);
+  using internal::PngPixels;
+  const std::optional<internal::Palette> palette = internal::ExactPalette({image}, kMostColours);
+  std::string bytes = internal::PngBeginning(
+      image.width, image.height, palette ? PngPixels::kIndexed : PngPixels::kTrueColour);
+  if (palette) internal::AppendPngChunk("PLTE", internal::PngColours(palette->colours), &bytes);
   const auto width = static_cast<size_t>(image.width);
-  AppendChunk("IDAT",
-              Compressed(palette ? Unfiltered(palette->pixels, width)
-                                 : Filtered(image.pixels, 3 * width, 3)),
-              &bytes);
-  AppendChunk("IEND", "", &bytes);
+  internal::AppendPngChunk(
+      "IDAT",
+      internal::CompressedPngRows(palette ? internal::UnfilteredPngRows(palette->pixels[0], width)
+                                          : Filtered(image.pixels, 3 * width, 3)),
+      &bytes);
+  internal::AppendPngChunk("IEND", "", &bytes);
   return bytes;
 }
 

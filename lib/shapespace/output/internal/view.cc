@@ -20,6 +20,9 @@ constexpr int kGrid = 64;
 // Weight of back faces relative to front faces, so that a sheet is seen from its front.
 constexpr double kBackWorth = 0.6;
 
+// Directions nearer to each other than this (sine of the angle) do not define a picture plane.
+constexpr double kParallel = 1e-6;
+
 struct Candidate {
   double azimuth, elevation;  // degrees; from the front, positive to the right
   double weight;              // preference
@@ -105,6 +108,10 @@ Eigen::Vector3d Front(const Eigen::Vector3d& up) {
 }
 
 }  // namespace
+
+bool Parallel(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return a.stableNormalized().cross(b.stableNormalized()).norm() < kParallel;
+}
 
 Eigen::Vector3d ChooseUp(const Connectivity& connectivity, const std::vector<Shape>& shapes) {
   int balance = 0;

@@ -14,6 +14,9 @@ namespace shapespace::internal {
 /// An orthographic camera's axes as columns: right and up in the picture, and towards the eye.
 using Axes = Eigen::Matrix3d;
 
+/// Whether two directions, of any length, are so nearly parallel that they define no picture plane.
+bool Parallel(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
+
 /// The upward axis: +z if more of the shapes can stand on it than on +y, else +y; both are common
 /// in mesh files.
 Eigen::Vector3d ChooseUp(const Connectivity& connectivity, const std::vector<Shape>& shapes);

@@ -1,0 +1,19 @@
+#ifndef SHAPESPACE_OUTPUT_DETAIL_PLAYBACK_H_
+#define SHAPESPACE_OUTPUT_DETAIL_PLAYBACK_H_
+
+#include <utility>
+#include <vector>
+
+#include <shapespace/output/gltf.h>
+
+namespace shapespace::internal {
+
+/// Pairs of a time in seconds, ascending from 0, and the parameter of the path that is shown then.
+/// Between them the parameter changes linearly. `parameters` ascend from 0 to 1 and are among those
+/// of the result; `shapes` is the number of shapes of the whole path, to which `fps` refers.
+std::vector<std::pair<double, double>> PlaybackMoments(const std::vector<double>& parameters,
+                                                       int shapes, const GltfOptions& options);
+
+}  // namespace shapespace::internal
+
+#endif  // SHAPESPACE_OUTPUT_DETAIL_PLAYBACK_H_
