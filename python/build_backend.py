@@ -80,7 +80,13 @@ def _build_module(settings, target):
         command += ["-DCMAKE_UNITY_BUILD=ON"]  # is faster
     # FindPython and, before CMake 3.27, pybind11's own search go by these.
     command += [f"-DPython_EXECUTABLE={sys.executable}", f"-DPYTHON_EXECUTABLE={sys.executable}"]
-    _run(command)
+    try:
+        _run(command)
+    except subprocess.CalledProcessError:
+        sys.exit(
+            "shapespace: CMake did not find what it needs. On Debian, these lists name the packages, "
+            "which ./dev packages installs: packaging/packages/build.txt and python.txt"
+        )
     jobs = os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL", str(os.cpu_count()))
     _run(["cmake", "--build", build, "--target", "python_module", "--parallel", jobs])
     _run(["cmake", "--install", build, "--strip", "--component", "python", "--prefix", target])

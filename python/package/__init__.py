@@ -114,7 +114,7 @@ from ._functions import (
     triangulate,
     write,
 )
-from ._model import ShapeModel
+from ._model import NotFittedError, ShapeModel
 from . import _metric
 from ._page import Page
 from ._options import (

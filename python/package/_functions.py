@@ -12,6 +12,7 @@ from . import _core
 from ._core import Handle, Metric, Path, Poses, SurfaceMap
 from ._options import takes
 from ._progress import told
+from ._warn import warn
 
 
 def _shown(result):
@@ -144,12 +145,49 @@ def _count(value, name):
         raise TypeError(f"{name}: must be int, not {value!r}") from None
 
 
+def _is_file(value):
+    return isinstance(value, (str, os.PathLike))
+
+
+def _is_pair(value):
+    """Whether it is (vertices, faces)."""
+    return isinstance(value, tuple) and len(value) == 2 and all(np.ndim(part) == 2 for part in value)
+
+
+def _of_pairs(pairs):
+    """Poses of (vertices, faces) each, with the same faces."""
+    first = np.asarray(pairs[0][1])
+    for i, (_, faces) in enumerate(pairs):
+        if not np.array_equal(np.asarray(faces), first):
+            raise ValueError(f"poses[{i}]: has other faces than poses[0]; `correspond` fits a mesh")
+    return Poses([vertices for vertices, _ in pairs], first)
+
+
 def _poses(poses, faces):
+    """Poses of anything that has some: Poses, names of files, pairs of vertices and faces, or
+    vertices with `faces`."""
+    several = [poses] if _is_file(poses) else poses
+    read_poses = isinstance(several, (list, tuple)) and len(several) > 0
     if isinstance(poses, Poses):
-        if faces is not None:
-            raise TypeError("faces: leave them out, since the poses have a mesh already")
-        return poses
-    return Poses(poses, faces)
+        own = poses
+    elif read_poses and all(map(_is_file, several)):
+        own = read(*several)
+    elif read_poses and all(map(_is_pair, several)):
+        own = _of_pairs(several)
+    else:
+        return Poses(poses, faces)
+    if faces is not None:
+        raise TypeError("faces: leave them out, since the poses have a mesh already")
+    return own
+
+
+def _told(result):
+    """The result of a solve, with a warning if it did not converge, unless `progress` ended it."""
+    summary = result.summary
+    reason = getattr(summary, "termination", "not_converged")
+    if not summary.converged and reason != "cancelled":
+        warn(f"the solve did not converge ({reason}): the summary says how far it is")
+    return result
 
 
 def _handles(handles):
@@ -158,6 +196,8 @@ def _handles(handles):
 
 def _mesh(vertices, faces, name="vertices"):
     """One shape with its mesh."""
+    if _is_file(vertices) or _is_pair(vertices):
+        vertices = _poses([vertices], None)
     if isinstance(vertices, Poses):
         if faces is not None:
             raise TypeError(f"faces: leave them out, since {name} has a mesh already")
@@ -189,7 +229,7 @@ def read(
 
     Parameters
     ----------
-    *files : str or path-like
+    *files : str or path-like, or one list of them
         One or more OBJ, PLY, OFF, STL, glTF (.glb, .gltf) or VTK (.vtk, .vtp) files, with the same
         faces in the same order. The morph targets of a glTF file are poses too.
     stiffeners : str or path-like, optional
@@ -224,6 +264,8 @@ def read(
     MismatchError
         The meshes are not poses of one; the message names the first difference.
     """
+    if len(files) == 1 and isinstance(files[0], (list, tuple)):
+        files = files[0]
     names = [os.fspath(file) for file in files]
     rest = "" if stiffeners is None else os.fspath(stiffeners)
     return _core.read(
@@ -344,7 +386,7 @@ def interpolate(poses, faces=None, *, progress=None, **options):
 
     Parameters
     ----------
-    poses : Poses, or sequence of array_like
+    poses : Poses, or sequence of array_like, of names of files, or of pairs (vertices, faces)
         Vertices of each pose, n x 3, in any unit. Poses are aligned rigidly first.
     faces : array_like, optional
         Triangles that all poses share, m x 3, or anything else that `Poses` takes.
@@ -372,7 +414,7 @@ def interpolate(poses, faces=None, *, progress=None, **options):
     """
     poses = _poses(poses, faces)
     with told(progress) as report:
-        return GeodesicResult(*_core.interpolate(poses, options, report))
+        return _told(GeodesicResult(*_core.interpolate(poses, options, report)))
 
 
 @takes("SplineOptions")
@@ -408,7 +450,7 @@ def spline(poses, faces=None, *, progress=None, **options):
     """
     poses = _poses(poses, faces)
     with told(progress) as report:
-        return SplineResult(*_core.spline(poses, options, report))
+        return _told(SplineResult(*_core.spline(poses, options, report)))
 
 
 @takes("AverageOptions")
@@ -440,7 +482,7 @@ def average(poses, faces=None, *, progress=None, **options):
     """
     poses = _poses(poses, faces)
     with told(progress) as report:
-        return AverageResult(*_core.average(poses, options, report))
+        return _told(AverageResult(*_core.average(poses, options, report)))
 
 
 def stand(path, parts, *, progress=None):
@@ -496,7 +538,7 @@ def extrapolate(path, steps, *, progress=None, **options):
     """
     with told(progress) as report:
         path, steps = _as(Path, path, "path"), _count(steps, "steps")
-        return ExponentialResult(*_core.extrapolate(path, steps, options, report))
+        return _told(ExponentialResult(*_core.extrapolate(path, steps, options, report)))
 
 
 @takes("ExponentialOptions")
@@ -519,7 +561,8 @@ def shoot(metric, shape, velocity, steps=16, *, progress=None, **options):
     """
     with told(progress) as report:
         metric, steps = _as(Metric, metric, "metric"), _count(steps, "steps")
-        return ExponentialResult(*_core.shoot(metric, shape, velocity, steps, options, report))
+        shot = _core.shoot(metric, shape, velocity, steps, options, report)
+        return _told(ExponentialResult(*shot))
 
 
 @takes("ExponentialOptions")
@@ -595,7 +638,8 @@ def transport(path, tangents, *, progress=None, **options):
         Tangents, k x n x 3, and a summary.
     """
     with told(progress) as report:
-        return TransportResult(*_core.transport(_as(Path, path, "path"), tangents, options, report))
+        carried = _core.transport(_as(Path, path, "path"), tangents, options, report)
+        return _told(TransportResult(*carried))
 
 
 @takes("CorrectionOptions")
@@ -614,7 +658,8 @@ def correct_path(path, *, progress=None, **options):
     CorrectionResult
     """
     with told(progress) as report:
-        return CorrectionResult(*_core.correct_path(_as(Path, path, "path"), options, report))
+        corrected = _core.correct_path(_as(Path, path, "path"), options, report)
+        return _told(CorrectionResult(*corrected))
 
 
 @takes("TransferOptions")
@@ -637,7 +682,8 @@ def transfer(source, target, *, progress=None, **options):
         The target's path, hybrids (None unless asked for), and a summary.
     """
     with told(progress) as report:
-        return TransferResult(*_core.transfer(_as(Path, source, "source"), target, options, report))
+        moved = _core.transfer(_as(Path, source, "source"), target, options, report)
+        return _told(TransferResult(*moved))
 
 
 @takes("TransferOptions")
@@ -712,7 +758,7 @@ def deform(vertices, faces, handles, *, progress=None, **options):
     """
     mesh = _mesh(vertices, faces)
     with told(progress) as report:
-        return DeformationResult(*_core.deform(mesh, _handles(handles), options, report))
+        return _told(DeformationResult(*_core.deform(mesh, _handles(handles), options, report)))
 
 
 class Interpolator:
@@ -754,7 +800,7 @@ class Interpolator:
         """
         ends = Poses([first, last], self._poses)
         with told(progress) as report:
-            return GeodesicResult(*self._solver.between(ends, report))
+            return _told(GeodesicResult(*self._solver.between(ends, report)))
 
     def __reduce__(self):
         return _again, (Interpolator, (self._poses, None), self._options)
@@ -799,7 +845,7 @@ class Deformer:
         DeformationResult
         """
         with told(progress) as report:
-            return DeformationResult(*self._solver.deform(_handles(handles), report))
+            return _told(DeformationResult(*self._solver.deform(_handles(handles), report)))
 
     def __reduce__(self):
         return _again, (Deformer, (self._mesh, None), self._options)
@@ -832,7 +878,7 @@ def repair(reference, distorted, faces=None, *, vertices=None, progress=None, **
     """
     mesh = _mesh(reference, faces, "reference")
     with told(progress) as report:
-        return RepairResult(*_core.repair(mesh, distorted, vertices, options, report))
+        return _told(RepairResult(*_core.repair(mesh, distorted, vertices, options, report)))
 
 
 class Correspondence:
@@ -936,7 +982,7 @@ def correspond(
     source = _mesh(template, template_faces, "template")
     goal = _mesh(target, target_faces, "target")
     with told(progress) as report:
-        result = _core.correspond(source, goal, markers, options, report)
+        result = _told(_core.correspond(source, goal, markers, options, report))
     shown = result.markers if result.summary.candidates else markers
     return Correspondence(result, source, goal, shown)
 

@@ -11,10 +11,15 @@ from ._progress import told
 from ._warn import warn
 
 
+class NotFittedError(ValueError, AttributeError):
+    """A model is asked for something before `fit`."""
+
+
 class ShapeModel:
     """The mean of poses and their principal modes; coordinates are in standard deviations.
 
-    Used as the transformers of scikit-learn are: `fit`, `transform`, `inverse_transform`.
+    Used as the transformers of scikit-learn are: `fit`, `transform`, `inverse_transform`, in
+    pipelines, and with `sklearn.base.clone`.
 
     Parameters
     ----------
@@ -26,7 +31,7 @@ class ShapeModel:
         The mean of the poses, n x 3.
     modes : ndarray
         Displacements of the mean by one standard deviation of each mode, k x n x 3.
-    explained_variance_ratio : ndarray
+    explained_variance_ratio_ : ndarray
         The modes' shares of the variance, k.
     coordinates : ndarray
         Of the poses, a row for each.
@@ -42,6 +47,15 @@ class ShapeModel:
         self._options = options
         self._summary = None
         self._model = None
+
+    def get_params(self, deep=True):
+        """The options that were given, as a dict."""
+        return dict(self._options)
+
+    def set_params(self, **options):
+        """Change options, for the next `fit`. Returns the model."""
+        self._options = {**self._options, **options}
+        return self
 
     def fit(self, poses, faces=None, *, progress=None):
         """Find the mean and the modes of poses.
@@ -117,7 +131,7 @@ class ShapeModel:
         return self._fitted().modes
 
     @property
-    def explained_variance_ratio(self):
+    def explained_variance_ratio_(self):
         return self._fitted().variance_ratio
 
     @property
@@ -134,7 +148,7 @@ class ShapeModel:
 
     def _fitted(self):
         if self._model is None:
-            raise AttributeError("this ShapeModel has no poses yet; call fit first")
+            raise NotFittedError("this ShapeModel has no poses yet; call fit first")
         return self._model
 
     def __repr__(self):

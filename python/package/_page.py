@@ -1,6 +1,10 @@
 """Pages for browsers and notebooks."""
 
 import os
+import pathlib
+import sys
+import tempfile
+import webbrowser
 from html import escape
 
 from . import _core
@@ -56,9 +60,23 @@ class Page:
         return f"<shapespace.Page: {len(self._html) / 1e6:.1f} MB>"
 
 
+def _in_notebook():
+    """Whether results of cells are shown as pages."""
+    ipython = sys.modules.get("IPython")
+    shell = ipython.get_ipython() if ipython else None
+    return shell is not None and hasattr(shell, "kernel")
+
+
 def show(self, *, height=480):
-    """The `Page` that shows it, which a notebook shows if it is the last line of a cell."""
-    return Page(self, height=height)
+    """The `Page` that shows it. A notebook shows it if it is the last line of a cell; elsewhere it
+    opens in the browser, of a file in the folder of temporary files."""
+    page = Page(self, height=height)
+    if not _in_notebook():
+        folder = tempfile.mkdtemp(prefix="shapespace-")
+        file = os.path.join(folder, f"{type(self).__name__.lower()}.html")
+        page.write(file)
+        webbrowser.open(pathlib.Path(file).as_uri())
+    return page
 
 
 def write(self, file):

@@ -3,6 +3,7 @@
 import gc
 import pickle
 import re
+import warnings
 
 import numpy as np
 import pytest
@@ -239,3 +240,27 @@ def test_a_handle_s_vertices_are_checked(animal):
         shapespace.Handle([-1])
     with pytest.raises(shapespace.InvalidOptions, match="1000000"):
         shapespace.deform(animal.pose("sit"), animal.faces, [shapespace.Handle([1000000])])
+
+
+def test_poses_are_files_pairs_or_arrays(animal, poses, tmp_path):
+    files = [tmp_path / "a.obj", str(tmp_path / "b.obj")]
+    for file, pose in zip(files, poses):
+        shapespace.write(file, pose, animal.faces)
+    expected = shapespace.interpolate(poses, animal.faces, shapes=1).path.vertices
+    pairs = [(pose, animal.faces) for pose in poses]
+    for given in (files, pairs, shapespace.read(files), shapespace.read(*files)):
+        np.testing.assert_allclose(shapespace.interpolate(given, shapes=1).path.vertices, expected)
+    with pytest.raises(TypeError, match="faces"):
+        shapespace.interpolate(files, animal.faces)
+    with pytest.raises(ValueError, match=r"poses\[1\]"):
+        shapespace.interpolate([(poses[0], animal.faces), (poses[1], animal.faces[::-1])])
+    one = shapespace.correspond(files[0], None, (poses[1], animal.faces), None, max_iterations=1)
+    assert one.fitted.shape == poses[0].shape
+
+
+def test_a_solve_that_did_not_converge_warns(animal, poses):
+    with pytest.warns(UserWarning, match="max_iterations"):
+        shapespace.interpolate(poses, animal.faces, shapes=3, max_iterations=1)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        shapespace.interpolate(poses, animal.faces, shapes=1)

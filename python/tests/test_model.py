@@ -24,8 +24,8 @@ def test_a_model_has_a_mean_and_modes(herd, model):
     _, poses = herd
     assert model.mean.shape == poses[0].shape
     assert model.modes.shape == (3, *poses[0].shape)
-    assert model.explained_variance_ratio.sum() == pytest.approx(1)
-    assert np.all(np.diff(model.explained_variance_ratio) < 0)
+    assert model.explained_variance_ratio_.sum() == pytest.approx(1)
+    assert np.all(np.diff(model.explained_variance_ratio_) < 0)
     assert model.summary.rank == 3
     assert "4 poses, 3 modes" in repr(model)
 
@@ -74,9 +74,21 @@ def test_what_cannot_be_is_refused(herd, model):
     body, poses = herd
     with pytest.raises(ss.InvalidOptions, match="modes: must be at most 3"):
         ss.ShapeModel(modes=4).fit(poses, body.faces)
-    with pytest.raises(AttributeError, match="call fit first"):
+    with pytest.raises(ss.NotFittedError, match="call fit first"):
         ss.ShapeModel().mean  # noqa: B018
     with pytest.raises(ss.InvalidOptions, match="coordinates"):
         model.inverse_transform([[0, 0, 0, 1]])
     with pytest.raises(TypeError):
         ss.ShapeModel(nodes=3).fit(poses, body.faces)
+
+
+# What sklearn.base.clone does.
+def test_a_model_is_cloned_by_its_parameters():
+    metric = {"bending": 1e-4}
+    model = ss.ShapeModel(modes=2, metric=metric)
+    clone = type(model)(**model.get_params(deep=False))
+    assert clone.get_params() == {"modes": 2, "metric": metric}
+    assert clone.get_params()["metric"] is metric
+    assert model.set_params(modes=3) is model
+    assert model.get_params() == {"modes": 3, "metric": metric}
+    assert clone.get_params()["modes"] == 2

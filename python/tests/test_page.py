@@ -33,6 +33,22 @@ def test_a_path_is_written_and_shown_as_a_page(path, tmp_path):
 
 
 @needs_viewer
+def test_outside_notebooks_a_path_opens_in_the_browser(path, monkeypatch):
+    opened = []
+    monkeypatch.setattr("webbrowser.open", opened.append)
+    assert isinstance(path.show(), ss.Page)
+    (address,) = opened
+    assert address.startswith("file://") and address.endswith("/path.html")
+    page = pathlib.Path(address[len("file://") :]).read_text(encoding="utf-8")
+    assert page.count(SCENE) == 1
+
+
+@pytest.fixture(autouse=True)
+def no_browser(monkeypatch):
+    monkeypatch.setattr("webbrowser.open", lambda address: None)
+
+
+@needs_viewer
 def test_two_paths_stand_side_by_side(path, tmp_path):
     ss.Page(path, path[::-1], names=["there", "back"]).write(tmp_path / "both.html")
     page = (tmp_path / "both.html").read_text(encoding="utf-8")
