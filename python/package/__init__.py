@@ -1,7 +1,7 @@
 """Geodesics between poses of a mesh, and what follows from them.
 
 Vertices are arrays, n x 3, one vertex a row; faces are integers, m x 3, counted from 0. Begin with
-`read` and `interpolate`; "Python in five minutes" (docs/guide/python.md) shows the rest.
+`read` and `interpolate`; the guide (docs/guide/python.md) shows the rest.
 """
 
 from . import _core
