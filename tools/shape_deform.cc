@@ -55,7 +55,10 @@ void CheckFlags(const std::vector<std::string>& files) {
     }
   }
   if (FLAGS_handles.empty() == FLAGS_repair.empty()) {
-    throw UsageError("give --handles, or --repair");
+    throw UsageError(
+        "give --handles, or --repair; handles are picked on the page that this writes: "
+        "shape-view " +
+        files[0]);
   }
   if (FLAGS_repair.empty() && IsGiven("sound")) throw UsageError("--sound: goes with --repair");
 }
@@ -158,7 +161,7 @@ dark if they stay, and red if they move. The default metric depends on whether t
 (stiffer, with a cost of volume) or open; --metric selects another; --volume 30 keeps the volume
 within .3 %.)") +
            kHowASolveEnds,
-       {"deform", "obstacle", "report", "summary", "outputs", "metric", "poses", "mesh", "memory",
-        "outside_files"}},
+       {"deform", "obstacle", "report", "summary", "outputs", "camera", "metric", "poses", "mesh",
+        "memory", "outside_files"}},
       Run);
 }

@@ -7,6 +7,7 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/extension.h>
+#include <shapespace/files/write.h>
 
 #include "support/anchor_flags.h"
 #include "support/command_line.h"
@@ -55,6 +56,8 @@ std::vector<double> TimesFromFlags(const Path& path) {
 
 void Run(const std::vector<std::string>& files) {
   if (files.size() != 1) throw UsageError("name one .path file");
+  // One shape needs no number in its name.
+  if (!FLAGS_at.empty() && NumbersFromFlag("at", FLAGS_at).size() == 1) WriteLastShapeAlone();
   const std::vector<std::string> outputs = OutputsFromFlags();
   for (const std::string& output : outputs) {
     if (IsPathFile(output)) {
@@ -70,6 +73,11 @@ void Run(const std::vector<std::string>& files) {
     throw UsageError("--ease goes with --frames, or with a .gif, .apng or .glb");
   }
   AnchorFlags anchorage = AnchorFlags::FromFlags();
+  if (IsWritableMesh(files[0])) {
+    throw FileError(files[0] +
+                    " is a mesh, not a .path; a path is made of poses by: shape-interpolate " +
+                    files[0] + " OTHER --output walk.path");
+  }
   const Path path = ReadPathAndTell(files[0]);
   anchorage.Select(path.Placed(0), *path.metric->connectivity, path.appearance, path.poses.size());
   const std::vector<double> times = TimesFromFlags(path);
@@ -79,7 +87,8 @@ void Run(const std::vector<std::string>& files) {
     NamingFlags({{"times", "at"}}, [&] { shown = Resample(path, times); });
   }
   anchorage.Apply(path, &shown);
-  Out() << shown.NumShapes() << " shapes of " << files[0] << '\n';
+  Out() << shown.NumShapes() << (shown.NumShapes() == 1 ? " shape of " : " shapes of ") << files[0]
+        << '\n';
   WriteOutputs(outputs, shown, path);
 }
 
@@ -88,11 +97,13 @@ void Run(const std::vector<std::string>& files) {
 
 int main(int argc, char** argv) {
   using namespace shapespace::tools;
+  gflags::SetCommandLineOptionWithMode("output", "path.png", gflags::SET_FLAGS_DEFAULT);
   return RunTool(argc, argv,
                  {"shape-export",
                   "meshes and pictures of a path, without solving again",
                   R"(  shape-export walk.path --output walk.png,frames/%03d.obj --frames 40 --ease
-  shape-export walk.path --output quarter%d.obj --at .25,.5,.75)",
-                  {"export", "outputs", "anchor", "memory", "outside_files"}},
+  shape-export walk.path --output quarter%d.obj --at .25,.5,.75
+  shape-export walk.path --output middle.obj --at .5)",
+                  {"export", "outputs", "camera", "anchor", "memory", "outside_files"}},
                  Run);
 }

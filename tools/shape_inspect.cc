@@ -110,11 +110,17 @@ std::shared_ptr<const Connectivity> WholeSurface(const Soup& soup,
   return ConnectivityOf(soup, poses, {}, seams.representatives);
 }
 
-// Prints self-intersections of a usable mesh, and returns their number.
+// Of more self-intersections nobody wants the number, which would take minutes to find.
+constexpr std::int64_t kMostIntersections = 10000;
+
+// Prints self-intersections of a usable mesh, and returns their number, at most the above.
 std::int64_t PrintIntersections(const Soup& soup, Telling* told) {
+  ShowProgress("self-intersections of " + NameOf(soup));
   const auto connectivity = WholeSurface(soup, {soup.vertices});
-  const std::int64_t pairs = CountIntersections(*connectivity, soup.vertices);
-  const std::string message = std::to_string(pairs) + " pairs of triangles cross";
+  const std::int64_t pairs = CountIntersections(*connectivity, soup.vertices, kMostIntersections);
+  const std::string message =
+      std::to_string(pairs) + (pairs == kMostIntersections ? " pairs of triangles cross, or more"
+                                                           : " pairs of triangles cross");
   told->Say("  %-12s %-24s %s\n", Name(Severity::kNote), "self-intersections",
             pairs == 0 ? "none" : message.c_str());
   return pairs;
@@ -250,13 +256,15 @@ class Meshes {
     Json json = PrintContent(soup, told);
     json["findings"] = Json::array();
     const bool usable = Print(CheckSoup(soup, FLAGS_open_seams), &json["findings"], told);
-    if (usable) json["intersections"] = PrintIntersections(soup, told);
     const char axis = MirrorFromFlags();
     if (usable && soups_.size() > 1 && axis != 0 && MirrorBack(soups_.front(), axis, &soup)) {
       told->Say("  %-12s %-24s mirrored; its %c has changed sign\n", Name(Severity::kNote),
                 "mirrored", axis);
     }
     const bool corresponds = soups_.size() == 1 || Corresponds(&json["findings"], told);
+    // Last, because it takes longest; of a mesh whose vertices are in another order it tells
+    // nothing.
+    if (usable && corresponds) json["intersections"] = PrintIntersections(soup, told);
     json["usable"] = usable && corresponds;
     all_usable_ = all_usable_ && usable && corresponds;
     return json;

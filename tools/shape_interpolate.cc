@@ -106,7 +106,7 @@ targets of a glTF file are poses too.
 Through three or more poses the path is a chain of geodesics, whose velocity jumps at each pose.
 With --spline it is smooth there.)") +
            kHowASolveEnds,
-       {"geodesic", "contact", "obstacle", "spline", "report", "summary", "outputs", "anchor",
-        "metric", "poses", "mesh", "memory", "outside_files"}},
+       {"geodesic", "contact", "obstacle", "spline", "report", "summary", "outputs", "camera",
+        "anchor", "metric", "poses", "mesh", "memory", "outside_files"}},
       Run);
 }

@@ -15,14 +15,17 @@
 #include <shapespace/files/read.h>
 #include <shapespace/output/page.h>
 
+#include "support/camera_flags.h"
 #include "support/console.h"
 #include "support/files.h"
 #include "support/flag_group.h"
+#include "support/open_page.h"
 #include "support/tool.h"
 #include "viewer/page.h"
 
-DEFINE_string(output, "page.html", "the page to write: .html");
-FLAG_GROUP(view, "Page", "output");
+DEFINE_string(output, "", "the page to write: .html; default: the name of the file that it shows");
+DEFINE_bool(open, false, "show the page in the browser when it is written");
+FLAG_GROUP(view, "Page", "open, output");
 
 namespace shapespace::tools {
 namespace {
@@ -48,10 +51,21 @@ void CheckKinds(const std::vector<std::string>& files) {
       throw UsageError(file + ": a mesh is shown alone or beside another mesh");
     }
   }
-  const std::string extension = internal::FileExtension(FLAGS_output);
-  if (extension != ".html" && extension != ".htm") {
+}
+
+// In the present folder if it is not given: walk.path becomes walk.html, and two files
+// a_and_b.html.
+std::string OutputFromFlag(const std::vector<std::string>& files) {
+  if (IsGiven("output")) {
+    const std::string extension = internal::FileExtension(FLAGS_output);
+    if (extension == ".html" || extension == ".htm") return FLAGS_output;
     throw UsageError("--output " + FLAGS_output + ": must end in .html");
   }
+  std::string name;
+  for (const std::string& file : files) {
+    name += (name.empty() ? "" : "_and_") + std::filesystem::path(file).stem().string();
+  }
+  return name + ".html";
 }
 
 // The name of a file on the page: with its folder only where the other file has the same name.
@@ -91,8 +105,10 @@ void CheckIsGlb(const std::string& file, const std::string& bytes) {
 
 void Run(const std::vector<std::string>& files) {
   CheckKinds(files);
-  CheckNothingIsOverwritten(files, {{"output", {FLAGS_output}}});
-  CheckCanBeWritten(FLAGS_output);
+  const std::string output = OutputFromFlag(files);
+  const PageView view = ViewFromFlags();
+  CheckNothingIsOverwritten(files, {{"output", {output}}});
+  CheckCanBeWritten(output);
   CheckHasViewer();
   std::list<Path> paths;  // scenes contain pointers to them
   std::vector<PageScene> scenes;
@@ -110,8 +126,10 @@ void Run(const std::vector<std::string>& files) {
       CheckIsGlb(file, std::get<PageGlb>(scenes.back()).bytes);
     }
   }
-  WritePage(FLAGS_output, std::string(ViewerPage()), scenes);
-  Out() << "wrote " << FLAGS_output << '\n';
+  WritePage(output, std::string(ViewerPage()), scenes, view);
+  Out() << "wrote " << output << (FLAGS_open ? "" : "; open it in a browser, or give --open")
+        << '\n';
+  if (FLAGS_open) OpenPage(output);
 }
 
 }  // namespace
@@ -123,12 +141,12 @@ int main(int argc, char** argv) {
       argc, argv,
       {"shape-view",
        "a page that shows paths, spaces and meshes in a browser, in one file, without network",
-       R"(  shape-view walk.path --output walk.html
+       R"(  shape-view walk.path --open                               writes walk.html and shows it
   shape-view before.path after.path --output compare.html   side by side
   shape-view walk.glb --output walk.html
   shape-view poses.space --output poses.html                shapes at points of a plane
-  shape-view cat.obj --output cat.html                      pick handles and selections
+  shape-view cat.obj --up -x                                pick handles and selections
   shape-view cat.obj lion.obj --output markers.html         pick markers on both)",
-       {"view"}},
+       {"view", "camera"}},
       Run);
 }

@@ -37,7 +37,7 @@ void RefuseOthers(const py::dict& given, const std::vector<std::string>& known) 
 
 void Write(const Path& path, const std::string& file, const py::dict& given) {
   using Kind = PathOutput::Kind;
-  const PathOutput output = PathOutput::Of(file);
+  const PathOutput output = PathOutput::Of(file, path.NumShapes() == 1);
   PathOutputOptions options;
   std::vector<std::string> taken;
   const auto take = [&](const std::string& name, auto* value) {
@@ -67,6 +67,7 @@ void Write(const Path& path, const std::string& file, const py::dict& given) {
       Set(given, &options.gltf, taken);
       break;
     case Kind::kFrames:
+    case Kind::kLastShape:
       take("color", &options.colours);
       RefuseOthers(given, taken);
       break;

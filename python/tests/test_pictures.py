@@ -39,3 +39,16 @@ def test_wrong_types_are_named(boxes):
         ss.film_strip(boxes, ground_line="y=0")
     with pytest.raises(ValueError, match="ground_line"):
         ss.film_strip(boxes, ground_line=float("nan"))
+
+
+def test_a_path_is_written_as_a_film_and_as_pictures(path, tmp_path):
+    path.write(tmp_path / "walk.gif", width=60, duration=0.2, playback="loop")
+    path.write(tmp_path / "walk.apng", width=60, duration=0.2, title="a walk")
+    path.write(tmp_path / "walk%d.png", width=60)
+    assert (tmp_path / "walk.gif").read_bytes()[:6] == b"GIF89a"
+    assert b"acTL" in (tmp_path / "walk.apng").read_bytes()
+    assert len(list(tmp_path.glob("walk?.png"))) == len(path)
+    with pytest.raises(ss.InvalidOptions, match="duration"):
+        path.write(tmp_path / "walk.gif", duration=-1)
+    with pytest.raises(TypeError, match="'duration'"):
+        path.write(tmp_path / "walk%d.png", duration=1)

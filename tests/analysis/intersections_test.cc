@@ -146,6 +146,19 @@ TEST(CountIntersections, CountsBothTrianglesOfEachSquareThatASheetCuts) {
   EXPECT_EQ(mesh.Count(), 0);
 }
 
+TEST(CountIntersections, EndsWhereItIsTold) {
+  const ShapeFamily tube = MakeTube();
+  const Shape flat = Eigen::DiagonalMatrix<double, 3>(1, 1, 1e-2) * tube.pose(110);
+  Shape tangled = flat;
+  for (Eigen::Index v = 0; v < tangled.cols(); ++v) tangled.col(v) = flat.col(v * 7 % flat.cols());
+  const std::int64_t all = CountIntersections(*tube.connectivity, tangled);
+  ASSERT_GT(all, 100);
+  for (const std::int64_t most : {std::int64_t{0}, std::int64_t{7}, all - 1}) {
+    EXPECT_EQ(CountIntersections(*tube.connectivity, tangled, most), most);
+  }
+  EXPECT_EQ(CountIntersections(*tube.connectivity, tangled, all + 1), all);
+}
+
 TEST(CountIntersections, SeesATubeThatPassesThroughItself) {
   EXPECT_EQ(WoundTube(0.8, 0).Count(), 0);
   EXPECT_GT(WoundTube(1.3, 0).Count(), 100);

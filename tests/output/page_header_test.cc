@@ -184,6 +184,29 @@ TEST_F(PageHeaderTest, PathsTellTheirTimesAndTheirView) {
   EXPECT_TRUE(Write(PagePath{&path, "w"}).header["energyEnd"].is_null());
 }
 
+TEST_F(PageHeaderTest, AViewThatIsGivenIsThatOfThePage) {
+  const PageMesh mesh{modes_.connectivity, modes_.keys[0], {}, "cube"};
+  const auto header = [&](const PageScene& scene, const PageView& view) {
+    WritePage(Path("page.html"), "<!-- scenes -->", {scene}, view);
+    return DecodedScene(ReadPage(Path("page.html"))[0].bytes).header;
+  };
+  for (const PageScene& scene : {PageScene(mesh), PageScene(modes_)}) {
+    const auto given = header(scene, {{-3, 0, 0}, {0, 0, -2}});
+    EXPECT_EQ(given["up"], (std::vector<double>{-1, 0, 0}));
+    EXPECT_EQ(given["eye"], (std::vector<double>{0, 0, -1}));
+    // From above, y cannot point up.
+    const auto from_above = header(scene, {{0, 0, 0}, {0, 1, 0}});
+    EXPECT_EQ(from_above["eye"], (std::vector<double>{0, 1, 0}));
+    EXPECT_EQ(from_above["up"][1], 0);
+    const auto upright = header(scene, {{0, -1, 0}, {0, 0, 0}});
+    EXPECT_EQ(upright["up"], (std::vector<double>{0, -1, 0}));
+    EXPECT_LT(upright["eye"][1], 0);
+  }
+  EXPECT_TRUE(Refuses<InvalidOptions>([&] { header(mesh, {{0, 1, 0}, {0, -2, 0}}); }, {"up"}));
+  EXPECT_TRUE(Refuses<InvalidOptions>([&] { header(mesh, {{NAN, 1, 0}, {0, 0, 0}}); }, {"up"}));
+  EXPECT_TRUE(Refuses<InvalidOptions>([&] { header(mesh, {{0, 1, 0}, {0, NAN, 0}}); }, {"eye"}));
+}
+
 TEST_F(PageHeaderTest, WhatStandsAroundTheScenesIsKept) {
   const PageGlb glb{"glTF", "a"};
   EXPECT_EQ(MakePage("<p>before<!-- scenes -->after</p>", {glb}),

@@ -192,6 +192,16 @@ TEST_F(PathOutputTest, AFilmShowsThePathBetweenItsShapesToo) {
   film.seconds.assign(5, .04);
   EXPECT_EQ(testing::Content(Path("bar.gif")), EncodeGif(film));
   EXPECT_EQ(testing::Content(Path("bar.apng")), EncodeApng(film));
+  options.gltf.duration = 0;
+  EXPECT_NE(testing::MessageOf<InvalidOptions>([&] {
+              WritePathOutput(PathOutput::Of(Path("none.gif")), path_, options);
+            }).find("duration"),
+            std::string::npos);
+  options.gltf.duration = 0.2;
+  shapespace::Path nothing;
+  nothing.metric = path_.metric;
+  EXPECT_THROW(WritePathOutput(PathOutput::Of(Path("none.gif")), nothing, options), MeshError);
+  EXPECT_FALSE(std::filesystem::exists(Path("none.gif")));
   options.gltf.playback = GltfPlayback::kOnce;
   WritePathOutput(PathOutput::Of(Path("once.gif")), path_, options);
   EXPECT_EQ(testing::Content(Path("once.gif")).find("NETSCAPE"), std::string::npos);

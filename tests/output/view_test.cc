@@ -4,6 +4,7 @@
 #include <string>
 
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include <shapespace/files/read.h>
@@ -42,7 +43,7 @@ internal::Axes View(const SimpleBody& body, const Eigen::Vector3d& up) {
   const std::vector<Shape> shapes = {body.shape / body.shape.colwise().norm().maxCoeff()};
   std::vector<internal::RayScene> scenes;
   scenes.emplace_back(tracer, shapes[0], Eigen::VectorXf());
-  return internal::ChooseView(shapes, scenes, up);
+  return internal::ChooseView(*body.connectivity, shapes, scenes, up);
 }
 
 TEST(ChooseUpTest, PrefersYWhereNothingSpeaksAgainst) {
@@ -132,6 +133,43 @@ TEST(ChooseViewTest, SeesAnOpenSheetFromItsFront) {
   EXPECT_GT(View(sheet, Eigen::Vector3d::UnitY())(2, 2), 0);
   sheet.connectivity = Reversed(*sheet.connectivity);
   EXPECT_LT(View(sheet, Eigen::Vector3d::UnitY())(2, 2), 0);
+}
+
+// Half of a sphere, which is open towards `-axis`.
+SimpleBody Bowl(const Eigen::Vector3d& axis) {
+  SimpleBody bowl = Sphere(1, 21, 40);
+  bowl.shape = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitY(), axis) * bowl.shape;
+  std::vector<Eigen::Vector3i> upper;
+  for (const auto& corners : bowl.connectivity->Triangles().colwise()) {
+    const Eigen::Vector3d middle =
+        (bowl.shape.col(corners[0]) + bowl.shape.col(corners[1]) + bowl.shape.col(corners[2]));
+    if (middle.dot(axis) > 0) upper.push_back(corners);
+  }
+  Eigen::Matrix3Xi triangles(3, upper.size());
+  for (size_t i = 0; i < upper.size(); ++i) triangles.col(i) = upper[i];
+  bowl.connectivity = Connectivity::FromTriangles(static_cast<int>(bowl.shape.cols()), triangles);
+  return bowl;
+}
+
+// A scan of a face is such a surface, however it lies.
+TEST(ChooseViewTest, SeesAnOpenSurfaceFromOutside) {
+  for (const Eigen::Vector3d& axis :
+       {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(-1, 0, 0), Eigen::Vector3d(0, 1, 0),
+        Eigen::Vector3d(0, -1, 0), Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0, 0, -1),
+        Eigen::Vector3d(0.2, -0.33, -0.92).normalized()}) {
+    const SimpleBody bowl = Bowl(axis);
+    for (const Eigen::Vector3d& up :
+         {Eigen::Vector3d(Eigen::Vector3d::UnitY()), Eigen::Vector3d(Eigen::Vector3d::UnitZ())}) {
+      EXPECT_GT(View(bowl, up).col(2).dot(axis), 0.2) << axis.transpose() << "; " << up.transpose();
+    }
+    const Eigen::Vector3d chosen = internal::ChooseUp(*bowl.connectivity, {bowl.shape});
+    EXPECT_GT(chosen.dot(axis), -0.5) << axis.transpose();
+  }
+}
+
+// Closed surfaces have no side that is hidden, so that they are seen from above as before.
+TEST(ChooseViewTest, SeesAClosedSurfaceFromAbove) {
+  EXPECT_GT(View(Sphere(1, 20, 40), Eigen::Vector3d::UnitY())(1, 2), 0);
 }
 
 // Where neither side has more to show, the body is seen from its left, low, and so faces right.

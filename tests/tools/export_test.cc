@@ -122,7 +122,7 @@ TEST_F(ExportTest, RefusesWhatMakesNoSense) {
       {"walk.path", "--frames", "1"},
       {"walk.path", "--ease"},
       {"walk.path", "--at", "0", "--frames", "3"},
-      {"walk.path", "--up", "x"},
+      {"walk.path", "--up", "w"},
       {"walk.path", "--color", "blue"},
       {"walk.path", "--unit", "0"},
       {},

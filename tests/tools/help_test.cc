@@ -81,8 +81,9 @@ TEST_F(HelpTest, ListsOurFlagsOnly) {
       Listed("shape-body"),
       (std::set<std::string>{"at", "help", "help-all", "output", "pose", "progress", "proportions",
                              "random", "seed", "table", "threads", "triangles", "version"}));
-  EXPECT_EQ(Listed("shape-view"), (std::set<std::string>{"help", "help-all", "output", "progress",
-                                                         "threads", "version"}));
+  EXPECT_EQ(Listed("shape-view"),
+            (std::set<std::string>{"help", "help-all", "open", "output", "progress", "threads",
+                                   "up", "version", "view"}));
   EXPECT_EQ(
       Listed("shape-correspond"),
       (std::set<std::string>{"allow_nonmanifold", "allow_outside_files", "find_markers", "help",
@@ -117,7 +118,7 @@ TEST_F(HelpTest, ListsOurFlagsOnly) {
   EXPECT_EQ(Listed("shape-transfer"), transfer);
   std::set<std::string> deform = wanted;
   deform.insert({"avoid_contact", "balance", "coarsest", "fps", "ground_line", "handles", "labels",
-                 "obstacle", "repair", "sound", "title", "unit", "up"});
+                 "obstacle", "repair", "sound", "title", "unit", "up", "view"});
   EXPECT_EQ(Listed("shape-deform"), deform);
   for (const char* foreign : {"flagfile", "undefok", "logtostderr", "minloglevel", "v"}) {
     EXPECT_EQ(listed.count(foreign), 0u) << foreign;

@@ -146,6 +146,19 @@ TEST_F(InspectTest, TellsWhereAMeshPassesThroughItself) {
   EXPECT_TRUE(std::regex_search(tube.out, std::regex("self-intersections +none"))) << tube.out;
 }
 
+// Its crossings would tell nothing and take long to count.
+TEST_F(InspectTest, OfAMeshThatDoesNotCorrespondTheCrossingsAreNotCounted) {
+  MakeTubes();
+  Succeed("shape-body", {"tube", "--triangles", "700", "--at", "50", "--output", "fine%d.obj"});
+  const Outcome outcome =
+      Run("shape-inspect", {"tube0.obj", "fine0.obj", "--report", "report.json"});
+  EXPECT_EQ(outcome.code, 1);
+  const auto report = nlohmann::json::parse(Content(Path("report.json")));
+  EXPECT_EQ(report["files"][0]["intersections"], 0);
+  EXPECT_EQ(report["files"][1]["usable"], false);
+  EXPECT_EQ(report["files"][1].count("intersections"), 0u);
+}
+
 TEST_F(InspectTest, SeesForearmsThatPassThroughABody) {
   const std::string folder = std::string(SHAPESPACE_DATA_DIR) + "/scape/";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no real meshes";

@@ -460,5 +460,26 @@ TEST_F(MessagesTest, OfFramesThatWouldOverwriteWhatIsRead) {
   written("shape-transport", {"tube0.obj", "tube0.obj", "f3.obj", "--steps", "2"});
 }
 
+// What another tool cures is said with the command.
+TEST_F(MessagesTest, NameTheToolThatHelps) {
+  MakeTubes();
+  const auto expect = [&](const std::string& tool, const Strings& arguments, const Strings& parts) {
+    const Outcome outcome = Run(tool, arguments);
+    EXPECT_EQ(outcome.code, 2) << outcome.err;
+    for (const std::string& part : parts) ExpectContains(outcome.err, part);
+  };
+  const Outcome mesh = Run("shape-export", {"tube0.obj"});
+  EXPECT_EQ(mesh.code, 1);
+  ExpectContains(mesh.err, "shape-interpolate tube0.obj");
+  expect("shape-deform", {"tube0.obj"}, {"--handles", "shape-view tube0.obj"});
+  expect("shape-interpolate", {"tube0.obj", "tube1.obj", "a.png"}, {"--output a.png"});
+  expect("shape-interpolate", {"tube0.obj", "tube1.obj", "--frames", "3"}, {"shape-export"});
+  expect("shape-interpolate", {"tube0.obj", "tube1.obj", "--shape", "3"}, {"--shapes"});
+  expect("shape-interpolate", {"tube0.obj", "tube1.obj", "--avoid-contac"}, {"--avoid_contact"});
+  // What is near to no flag is no hint.
+  EXPECT_EQ(Run("shape-export", {"--zzzzzz"}).err.find("--zzzzzz"),
+            Run("shape-export", {"--zzzzzz"}).err.rfind("--z"));
+}
+
 }  // namespace
 }  // namespace shapespace

@@ -1,3 +1,4 @@
+#include <cstdlib>
 #include <filesystem>
 
 #include "output/read_page.h"
@@ -123,6 +124,57 @@ TEST_F(ViewTest, ExplainsWrongCommandLines) {
   ExpectRefusal(2, {"walk.path", "tube0.obj"}, "tube0.obj: a mesh is shown alone");
   ExpectRefusal(2, {"walk.path", "--output", "walk.png"}, "--output walk.png: must end in .html");
   ExpectRefusal(1, {"walk.path", "--output", "walk.glb/x.html"}, "walk.glb is not a folder");
+}
+
+TEST_F(ViewTest, APageHasTheNameOfWhatItShows) {
+  MakeWalk();
+  if (!HasPage()) GTEST_SKIP() << "built without the viewer's page";
+  std::filesystem::create_directory(Path("sub"));
+  std::filesystem::rename(Path("walk.path"), Path("sub/walk.path"));
+  ExpectContains(Run("shape-view", {"sub/walk.path"}).out, "walk.html");
+  Succeed("shape-view", {"tube0.obj", "tube1.obj"});
+  EXPECT_EQ(ReadPage(Path("walk.html")).size(), 1u);
+  EXPECT_EQ(ReadPage(Path("tube0_and_tube1.html")).size(), 2u);
+}
+
+TEST_F(ViewTest, TheViewIsThatOfTheFlags) {
+  MakeWalk();
+  if (!HasPage()) GTEST_SKIP() << "built without the viewer's page";
+  const auto header = [&](Strings arguments) {
+    Succeed(arguments[0], {arguments.begin() + 1, arguments.end()});
+    return DecodedScene(ReadPage(Path("a.html"))[0].bytes).header;
+  };
+  const auto given =
+      header({"shape-view", "walk.path", "--up", "-x", "--view", "0,0,-2", "--output", "a.html"});
+  EXPECT_EQ(given["up"], (std::vector<double>{-1, 0, 0}));
+  EXPECT_EQ(given["eye"], (std::vector<double>{0, 0, -1}));
+  EXPECT_EQ(header({"shape-export", "walk.path", "--up", "0,-3,4", "--output", "a.html"})["up"],
+            (std::vector<double>{0, -0.6, 0.8}));
+  ExpectRefusal(2, {"walk.path", "--up", "w"}, "--up w");
+  ExpectRefusal(2, {"walk.path", "--up", "1,2"}, "--up 1,2");
+  ExpectRefusal(2, {"walk.path", "--view", "0,0,0"}, "--view 0,0,0");
+  ExpectRefusal(2, {"walk.path", "--up", "z", "--view", "0,0,1"}, "--up z");
+}
+
+// A program named xdg-open that the test puts first on the path stands for the user's browser.
+TEST_F(ViewTest, APageCanBeOpened) {
+  MakeWalk();
+  if (!HasPage()) GTEST_SKIP() << "built without the viewer's page";
+  std::filesystem::create_directory(Path("bin"));
+  File("bin/xdg-open", "#!/bin/sh\necho \"$1\" >'" + Path("opened") + "'\n");
+  std::filesystem::permissions(Path("bin/xdg-open"), std::filesystem::perms::owner_all);
+  const std::string before = std::getenv("PATH");
+  setenv("PATH", (Path("bin") + ":" + before).c_str(), 1);
+  Succeed("shape-view", {"walk.path", "--open"});
+  setenv("PATH", before.c_str(), 1);
+  EXPECT_EQ(Content(Path("opened")), std::filesystem::canonical(Path("walk.html")).string() + "\n");
+  // Without a browser the page is written all the same.
+  File("bin/xdg-open", "#!/bin/sh\nexit 3\n");
+  setenv("PATH", (Path("bin") + ":" + before).c_str(), 1);
+  const Outcome outcome = Run("shape-view", {"tube0.obj", "--open"});
+  setenv("PATH", before.c_str(), 1);
+  EXPECT_EQ(outcome.code, 0);
+  ExpectContains(outcome.err, "tube0.html");
 }
 
 TEST_F(ViewTest, OverwritesNothingThatItReads) {

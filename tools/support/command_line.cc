@@ -7,6 +7,7 @@
 #include <gflags/gflags.h>
 
 #include "support/flag_group.h"
+#include "support/nearest_word.h"
 #include "support/tool.h"
 
 DEFINE_bool(help_all, false, "all flags");
@@ -78,7 +79,9 @@ class Parser {
   void ParseFlag(const std::string& argument) {
     const size_t equals = argument.find('=');
     const auto [name, type, negated] = FlagOf(argument);
-    if (type.empty()) throw UsageError(argument.substr(0, equals) + ": there is no such flag");
+    if (type.empty()) {
+      throw UsageError(argument.substr(0, equals) + ": there is no such flag" + Hint(name));
+    }
     if (equals != argument.npos) {
       Set(name, argument.substr(equals + 1), type);
     } else if (type == "bool") {
@@ -92,6 +95,14 @@ class Parser {
     } else {
       Set(name, argv_[next_++], type);
     }
+  }
+
+  // What the user may have meant by a flag that is none.
+  std::string Hint(const std::string& name) const {
+    const std::string nearest = NearestWord(name, known_);
+    if (!nearest.empty()) return "; did you mean --" + nearest + "?";
+    const bool is_of_export = name == "frames" || name == "at";
+    return is_of_export ? "; it is one of shape-export, which takes a .path" : "";
   }
 
   static void Set(const std::string& name, const std::string& value, const std::string& type) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <map>
@@ -70,9 +71,14 @@ void CheckCanBeWritten(const std::string& file) {
   if (!fs::is_directory(folder, error)) {
     throw FileError(file + ": cannot be written: " + folder.string() + " is not a folder");
   }
-  if (access(folder.c_str(), W_OK) != 0) {
+  // Tried, because permissions do not tell everything: /proc takes no file from anybody.
+  std::string trial = (folder / ".shapespace-XXXXXX").string();
+  const int descriptor = mkstemp(trial.data());
+  if (descriptor < 0) {
     throw FileError(file + ": cannot be written: " + folder.string() + ": " + std::strerror(errno));
   }
+  close(descriptor);
+  unlink(trial.c_str());
 }
 
 bool IsPathFile(const std::string& file) { return internal::FileExtension(file) == ".path"; }

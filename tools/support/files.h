@@ -22,9 +22,9 @@ struct FlagOutputs {
 void CheckNothingIsOverwritten(const std::vector<std::string>& inputs,
                                const std::vector<FlagOutputs>& outputs);
 
-/// To be called before a solve, so that its result can be written: checks that `file`'s folder
-/// exists, or can probably be created, and is writable. "-" is stdout, and can.
-/// \throw FileError.
+/// To be called before a solve, so that its result can be written: checks that files
+/// can be made in `file`'s folder, or in that in which the folder would be made. "-" is stdout, and
+/// can. \throw FileError.
 void CheckCanBeWritten(const std::string& file);
 
 /// Whether a file is a .path, by its name.

@@ -13,6 +13,7 @@
 #include <shapespace/output/internal/option_fields.h>
 #include <shapespace/output/path_output.h>
 
+#include "support/camera_flags.h"
 #include "support/command_line.h"
 #include "support/flag_group.h"
 #include "support/frames.h"
@@ -24,7 +25,7 @@
 #include "viewer/page.h"
 
 DEFINE_string(
-    output, "path.png",
+    output, "path.path,path.png",
     "files to write, separated by commas: .path (the complete result, for other tools), "
     ".png (film strip), .gif or .apng (moving picture), .glb (animation, for browsers and "
     "Blender), .usda (animation, for programs that read USD), .pc2 or .mdd (point cache, "
@@ -37,9 +38,6 @@ DEFINE_string(
     "pictures, glb, usda, and frames in OBJ or PLY: plain, deviation (of edge lengths from "
     "the first pose), or parts (regions that move nearly rigidly)");
 
-DEFINE_string(up, "",
-              "the axis of the poses that points up, y or z; without, pictures choose, and glb and "
-              "usda take y");
 DEFINE_double(unit, 1, "glb, usda: metres in one unit of the poses; 0.001 for millimetres");
 DEFINE_double(seconds, 4, "gif, apng, glb: duration");
 DEFINE_double(
@@ -69,6 +67,10 @@ namespace {
 
 bool writes_last_shape_alone = false;
 
+bool IsAnimation(PathOutput::Kind kind) {
+  return kind == PathOutput::Kind::kGltf || kind == PathOutput::Kind::kUsd;
+}
+
 // Shapes whose vertices are nearer to each other than this, in diagonals of the bounding box, are
 // the same.
 constexpr double kSameShape = 1e-6;
@@ -83,9 +85,6 @@ PathOutput OutputOf(const std::string& name, const std::string& flag = "output")
 }
 
 GltfOptions GltfOptionsFromFlags() {
-  if (!FLAGS_up.empty() && FLAGS_up != "y" && FLAGS_up != "z") {
-    throw UsageError("--up " + FLAGS_up + ": must be y or z");
-  }
   GltfOptions options;
   for (const auto& [one, other] : {std::make_pair("seconds", "fps"), {"loop", "once"}}) {
     if (IsGiven(one) && IsGiven(other)) {
@@ -98,7 +97,6 @@ GltfOptions GltfOptionsFromFlags() {
   if (FLAGS_loop) options.playback = GltfPlayback::kLoop;
   if (FLAGS_once) options.playback = GltfPlayback::kOnce;
   options.ease = FLAGS_ease;
-  options.up = FLAGS_up == "z" ? 'z' : 'y';
   options.unit = FLAGS_unit;
   options.allow_outside_files = FLAGS_allow_outside_files;
   return options;
@@ -107,8 +105,9 @@ GltfOptions GltfOptionsFromFlags() {
 FilmStripOptions FilmStripOptionsFromFlags() {
   FilmStripOptions options;
   options.title = FLAGS_title;
-  if (FLAGS_up == "y") options.up = Eigen::Vector3d::UnitY();
-  if (FLAGS_up == "z") options.up = Eigen::Vector3d::UnitZ();
+  const PageView view = ViewFromFlags();
+  options.up = view.up;
+  options.view = view.eye;
   if (IsGiven("ground_line")) {
     const std::vector<double> numbers = NumbersFromFlag("ground_line", FLAGS_ground_line);
     if (numbers.size() != 1) throw UsageError(AsTyped("ground_line") + ": must be one height");
@@ -147,7 +146,6 @@ PathOutputOptions OptionsFromFlags() {
   options.film_strip = FilmStripOptionsFromFlags();
   options.gltf = GltfOptionsFromFlags();
   if (FLAGS_fps > 0) options.point_cache_fps = options.usd.fps = FLAGS_fps;
-  options.usd.up = options.gltf.up;
   options.usd.unit = options.gltf.unit;
   options.page_template = ViewerPage();
   return options;
@@ -198,7 +196,9 @@ std::vector<std::string> OutputsFromFlag(const std::string& flag, const std::str
   std::vector<std::string> outputs;
   for (const std::string& output : Split(list)) {
     if (output.empty()) continue;
-    if (OutputOf(output, flag).kind == PathOutput::Kind::kPage) CheckHasViewer();
+    const PathOutput::Kind kind = OutputOf(output, flag).kind;
+    if (kind == PathOutput::Kind::kPage) CheckHasViewer();
+    if (IsAnimation(kind)) UpOfAnimation(output);
     if (output == "-") {
       if (IsGiven("color")) throw UsageError("--color: has no effect on what goes to stdout");
       ClaimStdout(flag);
@@ -229,6 +229,7 @@ void WriteOutputs(const std::vector<std::string>& outputs, const Path& path, con
       if (kind == PathOutput::Kind::kFilmStrip || kind == PathOutput::Kind::kPictures) {
         options.film_strip.labels = LabelsFromFlag(path);
       }
+      if (IsAnimation(kind)) options.gltf.up = options.usd.up = UpOfAnimation(output);
       Write(OutputOf(output), path, options);
     } catch (const Error& error) {
       Complain(error.what());

@@ -1,11 +1,13 @@
 #include "support/poses.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include <gflags/gflags.h>
 
 #include <shapespace/base/error.h>
+#include <shapespace/base/internal/extension.h>
 #include <shapespace/files/pose_order.h>
 #include <shapespace/mesh/check.h>
 #include <shapespace/mesh/different_meshes.h>
@@ -57,9 +59,20 @@ Poses CheckedWithWarnings(Poses poses) {
   return poses;
 }
 
+// Whether a file of this name is written by tools, and holds no pose that could be read.
+bool IsOutputAlone(const std::string& file) {
+  static const std::set<std::string> extensions = {".png",  ".gif", ".apng", ".html",
+                                                   ".usda", ".pc2", ".mdd",  ".path"};
+  return extensions.count(internal::FileExtension(file)) > 0;
+}
+
 }  // namespace
 
 Poses ReadPosesFromFlags(const std::vector<std::string>& files, size_t least, bool any_order) {
+  for (const std::string& file : files) {
+    if (!IsOutputAlone(file)) continue;
+    throw UsageError(file + " cannot be read as a pose; to write it: --output " + file);
+  }
   const bool from_stdin = std::find(files.begin(), files.end(), "-") != files.end();
   std::vector<Soup> soups;
   for (const std::string& file : files) {

@@ -115,6 +115,7 @@ struct Triangles {
   const Eigen::Matrix3Xi* indices;
   const Groups* groups;
   Shape vertices;  // within the unit cube about the origin, where float boxes are accurate
+  size_t most;     // pairs that are looked for
   std::mutex mutex;
   std::vector<std::pair<int, int>>* pairs;  // guarded by mutex, read after callbacks' destruction
   internal::ForkJoin callbacks;
@@ -175,6 +176,10 @@ void AddIfCrossing(const Triangles& triangles, int first, int second,
 void OnPairs(void* user, RTCCollision* pairs, unsigned num_pairs) {
   auto* triangles = static_cast<Triangles*>(user);
   const internal::ForkJoin::Piece piece(triangles->callbacks);
+  {
+    const std::lock_guard<std::mutex> lock(triangles->mutex);
+    if (triangles->pairs->size() >= triangles->most) return;
+  }
   const Groups& groups = *triangles->groups;
   std::vector<std::pair<int, int>> found;
   for (unsigned i = 0; i < num_pairs; ++i) {
@@ -203,7 +208,7 @@ void Check(RTCDevice device) {
   }
 }
 
-// All intersections, in any order.
+// All intersections, in any order; of more than `most`, at least that many.
 void Collide(RTCDevice device, Triangles* triangles) {
   const std::unique_ptr<RTCSceneTy, void (*)(RTCScene)> scene(rtcNewScene(device), rtcReleaseScene);
   const std::unique_ptr<RTCGeometryTy, void (*)(RTCGeometry)> geometry(
@@ -221,7 +226,8 @@ void Collide(RTCDevice device, Triangles* triangles) {
 }
 
 std::vector<std::pair<int, int>> FindOnDevice(RTCDevice device, const Connectivity& connectivity,
-                                              const Groups& groups, const Shape& shape) {
+                                              const Groups& groups, const Shape& shape,
+                                              size_t most = std::numeric_limits<size_t>::max()) {
   if (shape.cols() != connectivity.NumVertices()) {
     throw MeshError("intersections: the shape has " + std::to_string(shape.cols()) +
                     " vertices, its connectivity " + std::to_string(connectivity.NumVertices()));
@@ -236,6 +242,7 @@ std::vector<std::pair<int, int>> FindOnDevice(RTCDevice device, const Connectivi
     Triangles triangles{&connectivity.Triangles(),
                         &groups,
                         (shape.colwise() - (low + high) / 2) / extent,
+                        most,
                         {},
                         &pairs,
                         {}};
@@ -262,6 +269,13 @@ std::vector<std::pair<int, int>> FindIntersections(const Connectivity& connectiv
 
 std::int64_t CountIntersections(const Connectivity& connectivity, const Shape& shape) {
   return CountIntersections(connectivity, std::vector<Shape>{shape}).front();
+}
+
+std::int64_t CountIntersections(const Connectivity& connectivity, const Shape& shape,
+                                std::int64_t most) {
+  const auto found = FindOnDevice(StartDevice().get(), connectivity, MakeGroups(connectivity),
+                                  shape, static_cast<size_t>(most));
+  return std::min(most, static_cast<std::int64_t>(found.size()));
 }
 
 std::vector<std::int64_t> CountIntersections(const Connectivity& connectivity,

@@ -25,6 +25,11 @@ std::vector<std::pair<int, int>> FindIntersections(const Connectivity& connectiv
 /// Their number.
 std::int64_t CountIntersections(const Connectivity& connectivity, const Shape& shape);
 
+/// Their number, or `most` (not negative) if there are that many or more, which takes less time
+/// than to count all.
+std::int64_t CountIntersections(const Connectivity& connectivity, const Shape& shape,
+                                std::int64_t most);
+
 /// Their numbers for each shape.
 std::vector<std::int64_t> CountIntersections(const Connectivity& connectivity,
                                              const std::vector<Shape>& shapes);

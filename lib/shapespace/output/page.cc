@@ -5,6 +5,7 @@
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/atomic_file.h>
 #include <shapespace/output/detail/page_scene.h>
+#include <shapespace/output/internal/view.h>
 
 namespace shapespace {
 namespace {
@@ -49,17 +50,19 @@ std::string Element(const std::string& type, const std::string& name, const std:
 }
 
 struct MakeElement {
+  const PageView& view;
+
   std::string operator()(const PagePath& path) const {
-    return Element("application/x-shapespace", path.name, internal::EncodeScene(path));
+    return Element("application/x-shapespace", path.name, internal::EncodeScene(path, view));
   }
   std::string operator()(const PageSpace& space) const {
-    return Element("application/x-shapespace", space.name, internal::EncodeScene(space));
+    return Element("application/x-shapespace", space.name, internal::EncodeScene(space, view));
   }
   std::string operator()(const PageModes& modes) const {
-    return Element("application/x-shapespace", modes.name, internal::EncodeScene(modes));
+    return Element("application/x-shapespace", modes.name, internal::EncodeScene(modes, view));
   }
   std::string operator()(const PageMesh& mesh) const {
-    return Element("application/x-shapespace", mesh.name, internal::EncodeScene(mesh));
+    return Element("application/x-shapespace", mesh.name, internal::EncodeScene(mesh, view));
   }
   std::string operator()(const PageGlb& glb) const {
     return Element("model/gltf-binary", glb.name, glb.bytes);
@@ -68,7 +71,17 @@ struct MakeElement {
 
 }  // namespace
 
-std::string MakePage(const std::string& page_template, const std::vector<PageScene>& scenes) {
+void PageView::Validate() const {
+  if (!up.allFinite()) throw InvalidOptions("up", "not finite");
+  if (!eye.allFinite()) throw InvalidOptions("eye", "not finite");
+  if (!up.isZero(0) && !eye.isZero(0) && internal::Parallel(up, eye)) {
+    throw InvalidOptions("up", "parallel to the direction to the eye; give another, or none");
+  }
+}
+
+std::string MakePage(const std::string& page_template, const std::vector<PageScene>& scenes,
+                     const PageView& view) {
+  view.Validate();
   if (scenes.empty() || scenes.size() > 2)
     throw InvalidOptions("scenes", "there must be one or two");
   for (const PageScene& scene : scenes) {
@@ -86,13 +99,13 @@ std::string MakePage(const std::string& page_template, const std::vector<PageSce
     throw InvalidOptions("page_template", "is not the viewer that ./dev viewer builds");
   }
   std::string page = page_template.substr(0, mark);
-  for (const PageScene& scene : scenes) page += std::visit(MakeElement(), scene);
+  for (const PageScene& scene : scenes) page += std::visit(MakeElement{view}, scene);
   return page.append(page_template, mark + sizeof kMark - 1);
 }
 
 void WritePage(const std::string& file, const std::string& page_template,
-               const std::vector<PageScene>& scenes) {
-  const std::string page = MakePage(page_template, scenes);
+               const std::vector<PageScene>& scenes, const PageView& view) {
+  const std::string page = MakePage(page_template, scenes, view);
   internal::WriteFileAtomically(file, [&](std::ostream& out) { out << page; });
 }
 

@@ -94,6 +94,15 @@ struct PageMesh {
   std::vector<int> markers = {};
 };
 
+/// From where a page shows its scenes at first. What is zero is chosen from the shapes.
+struct PageView {
+  Eigen::Vector3d up = Eigen::Vector3d::Zero();   ///< what points up
+  Eigen::Vector3d eye = Eigen::Vector3d::Zero();  ///< the direction from the body to the eye
+
+  /// \throw InvalidOptions naming the field: not finite, or `up` parallel to `eye`.
+  void Validate() const;
+};
+
 using PageScene = std::variant<PagePath, PageGlb, PageSpace, PageModes, PageMesh>;
 
 /// A self-contained HTML page that shows `scenes` without a server or a network. There may be one
@@ -105,15 +114,16 @@ using PageScene = std::variant<PagePath, PageGlb, PageSpace, PageModes, PageMesh
 ///
 /// Positions are relative to the box around all shapes of a scene and rounded to 1/65535 of its
 /// longest side, so that accuracy does not depend on the distance from the origin;
-/// docs/file-formats.md describes the encoding.
+/// docs/file-formats.md describes the encoding. `view` is that of all scenes but glb files.
 /// \throw InvalidOptions if `page_template` is not such a viewer, or the number or kinds of scenes
 ///        are not permitted; MeshError if a path or space is not valid, or too large for a page.
-std::string MakePage(const std::string& page_template, const std::vector<PageScene>& scenes);
+std::string MakePage(const std::string& page_template, const std::vector<PageScene>& scenes,
+                     const PageView& view = {});
 
 /// Writes such a page, completely or not at all.
 /// \throw as above; FileError if the file cannot be written.
 void WritePage(const std::string& file, const std::string& page_template,
-               const std::vector<PageScene>& scenes);
+               const std::vector<PageScene>& scenes, const PageView& view = {});
 
 }  // namespace shapespace
 

@@ -69,7 +69,8 @@ class Writer {
         break;
       case PathOutput::Kind::kPage:
         WritePage(file_, options_.page_template,
-                  {PagePath{&path_, std::filesystem::path(file_).stem().string()}});
+                  {PagePath{&path_, std::filesystem::path(file_).stem().string()}},
+                  {options_.film_strip.up, options_.film_strip.view});
         break;
     }
     return std::move(summary_);
@@ -118,6 +119,9 @@ class Writer {
   }
 
   void WritePathFilm() const {
+    path_.Validate();
+    if (path_.shapes.empty()) throw MeshError(file_ + ": the path has no shape to show");
+    options_.gltf.Validate();
     const internal::FilmTimes times = internal::ChooseFilmTimes(path_, options_.gltf);
     const Path shown = Resample(path_, times.parameters);
     FilmStripOptions options = PictureOptions(shown);

@@ -63,7 +63,8 @@ struct PathOutputOptions {
   GltfOptions gltf;
   double point_cache_fps = 24;
   UsdOptions usd;             ///< but colours, which are those of `colours`
-  std::string page_template;  ///< of pages, as in output/page.h
+  std::string page_template;  ///< of pages, as in output/page.h; `up` and `view` are those of
+                              ///< `film_strip`
 };
 
 struct PathOutputSummary {

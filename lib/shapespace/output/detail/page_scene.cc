@@ -156,9 +156,9 @@ std::vector<Steps> QuantiseAll(const std::vector<Shape>& shapes, OrderedJson* he
   return steps;
 }
 
-// The view direction of a film strip of `shapes`, and its upward direction, chosen if zero.
+// What of `view` is zero is that of a film strip of `shapes`.
 void AppendView(const Connectivity& connectivity, const std::vector<Shape>& shapes,
-                const Eigen::Vector3d& wanted_up, OrderedJson* header) {
+                const PageView& view, OrderedJson* header) {
   const Box box = BoxAround(shapes);
   std::vector<Shape> small;
   for (const Shape& shape : shapes) {
@@ -168,8 +168,12 @@ void AppendView(const Connectivity& connectivity, const std::vector<Shape>& shap
   const RayTracer tracer(connectivity, kTubeRadius);
   std::vector<RayScene> scenes;
   for (const Shape& shape : small) scenes.emplace_back(tracer, shape, Eigen::VectorXf());
-  const Eigen::Vector3d up = wanted_up.isZero(0) ? ChooseUp(connectivity, small) : wanted_up;
-  const Eigen::Vector3d eye = ChooseView(small, scenes, up).col(2);
+  Eigen::Vector3d up = view.up.isZero(0) ? ChooseUp(connectivity, small) : view.up.normalized();
+  // Seen from above or below, the other of the two axes points up.
+  if (view.up.isZero(0) && !view.eye.isZero(0) && Parallel(up, view.eye)) std::swap(up[1], up[2]);
+  const Eigen::Vector3d eye =
+      view.eye.isZero(0) ? Eigen::Vector3d(ChooseView(connectivity, small, scenes, up).col(2))
+                         : view.eye.normalized();
   (*header)["up"] = {up[0], up[1], up[2]};
   (*header)["eye"] = {eye[0], eye[1], eye[2]};
 }
@@ -369,7 +373,7 @@ OrderedJson Columns(const Matrix& matrix) {
 
 }  // namespace
 
-std::string EncodeScene(const PagePath& scene) {
+std::string EncodeScene(const PagePath& scene, const PageView& view) {
   const Path& path = *scene.path;
   try {
     path.Validate();
@@ -390,7 +394,7 @@ std::string EncodeScene(const PagePath& scene) {
   header["metric"] = DescribeMetric(path.metric->options);
   header["speeds"] = SquaredSpeeds(path);
   const std::vector<Shape> shapes = path.Placed();
-  AppendView(connectivity, {shapes.front(), shapes.back()}, Eigen::Vector3d::Zero(), &header);
+  AppendView(connectivity, {shapes.front(), shapes.back()}, view, &header);
   const std::vector<Steps> steps = QuantiseAll(shapes, &header);
   AppendPositions(steps, PredictAlongPath(steps), &arrays);
   AppendDeviations(path, &header, &arrays);
@@ -401,7 +405,7 @@ std::string EncodeScene(const PagePath& scene) {
   return Pack(header, arrays);
 }
 
-std::string EncodeScene(const PageSpace& scene) {
+std::string EncodeScene(const PageSpace& scene, const PageView& view) {
   CheckSpace(scene);
   CheckSize(scene.name, scene.nodes.size(), scene.connectivity->NumVertices(), 6);
   OrderedJson header = {{"version", kVersion}, {"kind", "space"}, {"name", scene.name}};
@@ -414,14 +418,14 @@ std::string EncodeScene(const PageSpace& scene) {
   header["parents"] = scene.parents;
   AppendView(*scene.connectivity,
              {scene.nodes.begin(), scene.nodes.begin() + std::min<size_t>(scene.names.size(), 3)},
-             Eigen::Vector3d::Zero(), &header);
+             view, &header);
   const std::vector<Steps> steps = QuantiseAll(scene.nodes, &header);
   AppendPositions(steps, PredictFromParents(steps, scene.parents), &arrays);
   AppendOwnColours(scene.vertex_colours, &header, &arrays);
   return Pack(header, arrays);
 }
 
-std::string EncodeScene(const PageModes& scene) {
+std::string EncodeScene(const PageModes& scene, const PageView& view) {
   CheckModes(scene);
   CheckSize(scene.name, scene.keys.size(), scene.connectivity->NumVertices(), 6);
   OrderedJson header = {
@@ -443,7 +447,9 @@ std::string EncodeScene(const PageModes& scene) {
   }
   header["intercept"] = std::vector<double>(scene.intercept.begin(), scene.intercept.end());
   header["slopes"] = Columns(scene.slopes);
-  AppendView(*scene.connectivity, {scene.keys[0]}, scene.up, &header);
+  PageView own_view = view;
+  if (view.up.isZero(0) && view.eye.isZero(0)) own_view.up = scene.up;
+  AppendView(*scene.connectivity, {scene.keys[0]}, own_view, &header);
   const std::vector<Steps> steps = QuantiseAll(scene.keys, &header);
   // Every key is predicted to be the mean.
   std::vector<Steps> predicted(steps.size(), steps[0]);
@@ -453,7 +459,7 @@ std::string EncodeScene(const PageModes& scene) {
   return Pack(header, arrays);
 }
 
-std::string EncodeScene(const PageMesh& scene) {
+std::string EncodeScene(const PageMesh& scene, const PageView& view) {
   if (scene.connectivity == nullptr) throw MeshError(scene.name + ": no mesh");
   CheckShapes(scene.name, *scene.connectivity, {scene.shape});
   CheckColours(scene.name, scene.vertex_colours, scene.shape.cols());
@@ -472,7 +478,7 @@ std::string EncodeScene(const PageMesh& scene) {
                         {"markers", scene.markers}};
   std::string arrays;
   AppendConnectivity(*scene.connectivity, &header, &arrays);
-  AppendView(*scene.connectivity, {scene.shape}, Eigen::Vector3d::Zero(), &header);
+  AppendView(*scene.connectivity, {scene.shape}, view, &header);
   const std::vector<Steps> steps = QuantiseAll({scene.shape}, &header);
   AppendPositions(steps, {Steps(steps[0].size(), 0)}, &arrays);
   AppendOwnColours(scene.vertex_colours, &header, &arrays);

@@ -11,10 +11,10 @@ namespace shapespace::internal {
 
 /// The data of one scene, compressed, as described in docs/file-formats.md under HTML.
 /// \throw MeshError if the scene is not valid.
-std::string EncodeScene(const PagePath& scene);
-std::string EncodeScene(const PageSpace& scene);
-std::string EncodeScene(const PageModes& scene);
-std::string EncodeScene(const PageMesh& scene);
+std::string EncodeScene(const PagePath& scene, const PageView& view);
+std::string EncodeScene(const PageSpace& scene, const PageView& view);
+std::string EncodeScene(const PageModes& scene, const PageView& view);
+std::string EncodeScene(const PageMesh& scene, const PageView& view);
 
 }  // namespace shapespace::internal
 

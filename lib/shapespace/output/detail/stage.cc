@@ -128,7 +128,7 @@ Axes CameraAxes(const Connectivity& connectivity, const std::vector<Shape>& shap
   const std::vector<Shape> ends = {shapes.front(), shapes.back()};
   std::vector<RayScene> scenes;
   for (const Shape& end : ends) scenes.emplace_back(tracer, end, Eigen::VectorXf());
-  return ChooseView(ends, scenes, up, has_ground);
+  return ChooseView(connectivity, ends, scenes, up, has_ground);
 }
 
 // Frames just large enough for every shape, whose longer side has the requested width, and at least

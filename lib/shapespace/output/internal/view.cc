@@ -23,12 +23,23 @@ constexpr double kBackWorth = 0.6;
 // Directions nearer to each other than this (sine of the angle) do not define a picture plane.
 constexpr double kParallel = 1e-6;
 
+// A surface is open if the sum of its triangles' areas, as vectors, has at least this share of
+// their sum as numbers: 0 for closed surfaces, 1 for a plane.
+constexpr double kOpen = 0.1;
+
+// An open surface faces down if its mean direction does so by this much, as a cosine.
+constexpr double kDown = 0.5;
+
+// Weight of views in which an open surface shows its inside.
+constexpr double kInside = 0.1;
+
 struct Candidate {
   double azimuth, elevation;  // degrees; from the front, positive to the right
   double weight;              // preference
 };
 
-std::vector<Candidate> Candidates(bool are_horizontal) {
+// With `from_below`, there are views from below the horizon too.
+std::vector<Candidate> Candidates(bool are_horizontal, bool from_below) {
   struct Elevation {
     double degrees, weight;
   };
@@ -45,7 +56,11 @@ std::vector<Candidate> Candidates(bool are_horizontal) {
   std::vector<Candidate> candidates;
   for (const Elevation& elevation : elevations) {
     for (const auto& azimuth : kAzimuths) {
-      candidates.push_back({azimuth.degrees, elevation.degrees, azimuth.weight * elevation.weight});
+      const double weight = azimuth.weight * elevation.weight;
+      candidates.push_back({azimuth.degrees, elevation.degrees, weight});
+      if (from_below && !are_horizontal) {
+        candidates.push_back({azimuth.degrees, -elevation.degrees, weight});
+      }
     }
   }
   return candidates;
@@ -63,6 +78,21 @@ Eigen::Vector3d CentreOfArea(const Connectivity& connectivity, const Shape& shap
     total += area;
   }
   return total > 0 ? Eigen::Vector3d(sum / total) : Eigen::Vector3d(shape.rowwise().mean());
+}
+
+// The unit vector towards which open surfaces face in the mean; zero if they are closed.
+Eigen::Vector3d Outward(const Connectivity& connectivity, const std::vector<Shape>& shapes) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double total = 0;
+  for (const Shape& shape : shapes) {
+    for (const auto& corners : connectivity.Triangles().colwise()) {
+      const Eigen::Vector3d normal =
+          AreaNormal(shape.col(corners[0]), shape.col(corners[1]), shape.col(corners[2]));
+      sum += normal;
+      total += normal.norm();
+    }
+  }
+  return sum.norm() > kOpen * total ? Eigen::Vector3d(sum.normalized()) : Eigen::Vector3d::Zero();
 }
 
 // Whether the centre of area is above the part that touches a floor perpendicular to `axis`.
@@ -118,7 +148,11 @@ Eigen::Vector3d ChooseUp(const Connectivity& connectivity, const std::vector<Sha
   for (const Shape& shape : shapes) {
     balance += Stands(connectivity, shape, 2) - Stands(connectivity, shape, 1);
   }
-  return balance > 0 ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitY();
+  Eigen::Vector3d up = Eigen::Vector3d::UnitY(), other = Eigen::Vector3d::UnitZ();
+  if (balance > 0) std::swap(up, other);
+  const Eigen::Vector3d outward = Outward(connectivity, shapes);
+  if (outward.dot(up) < -kDown && std::abs(outward.dot(other)) < kDown) return other;
+  return up;
 }
 
 Axes LookFrom(const Eigen::Vector3d& eye, const Eigen::Vector3d& up) {
@@ -129,11 +163,13 @@ Axes LookFrom(const Eigen::Vector3d& eye, const Eigen::Vector3d& up) {
   return axes;
 }
 
-Axes ChooseView(const std::vector<Shape>& shapes, const std::vector<RayScene>& scenes,
-                const Eigen::Vector3d& up, bool must_be_horizontal) {
+Axes ChooseView(const Connectivity& connectivity, const std::vector<Shape>& shapes,
+                const std::vector<RayScene>& scenes, const Eigen::Vector3d& up,
+                bool must_be_horizontal) {
   const Eigen::Vector3d pole = up.stableNormalized();
+  const Eigen::Vector3d outward = Outward(connectivity, shapes);
   const Axes front = LookFrom(Front(pole), pole);
-  const std::vector<Candidate> candidates = Candidates(must_be_horizontal);
+  const std::vector<Candidate> candidates = Candidates(must_be_horizontal, outward.dot(pole) < 0);
   std::vector<Axes> views(candidates.size());
   std::vector<double> scores(candidates.size(), 0);
   std::vector<Eigen::Matrix3d> covariances;
@@ -148,8 +184,9 @@ Axes ChooseView(const std::vector<Shape>& shapes, const std::vector<RayScene>& s
         front * Eigen::Vector3d(std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
                                 std::cos(elevation) * std::cos(azimuth)),
         pole);
+    const double side = views[i].col(2).dot(outward) < 0 ? kInside : 1;
     for (size_t k = 0; k < scenes.size(); ++k) {
-      scores[i] += candidates[i].weight * VisibleArea(scenes[k], views[i]) *
+      scores[i] += side * candidates[i].weight * VisibleArea(scenes[k], views[i]) *
                    ProjectedArea(covariances[k], views[i]);
     }
   });
