@@ -138,7 +138,9 @@ TEST(ChooseViewTest, SeesAnOpenSheetFromItsFront) {
 // Half of a sphere, which is open towards `-axis`.
 SimpleBody Bowl(const Eigen::Vector3d& axis) {
   SimpleBody bowl = Sphere(1, 21, 40);
-  bowl.shape = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitY(), axis) * bowl.shape;
+  const Eigen::Matrix3d turn =
+      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitY(), axis).toRotationMatrix();
+  bowl.shape = turn * bowl.shape;
   std::vector<Eigen::Vector3i> upper;
   for (const auto& corners : bowl.connectivity->Triangles().colwise()) {
     const Eigen::Vector3d middle =
