@@ -147,7 +147,7 @@ TEST(CountIntersections, CountsBothTrianglesOfEachSquareThatASheetCuts) {
 }
 
 TEST(CountIntersections, EndsWhereItIsTold) {
-  const ShapeFamily tube = MakeTube();
+  const ShapeFamily tube = MakeTube(1000);
   const Shape flat = Eigen::DiagonalMatrix<double, 3>(1, 1, 1e-2) * tube.pose(110);
   Shape tangled = flat;
   for (Eigen::Index v = 0; v < tangled.cols(); ++v) tangled.col(v) = flat.col(v * 7 % flat.cols());
