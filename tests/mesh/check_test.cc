@@ -42,8 +42,8 @@ std::vector<std::string> Kinds(const std::vector<Finding>& findings) {
   return kinds;
 }
 
-using Names = std::vector<std::string>;
-const Names kNotes = {"components", "boundary-loops", "genus"};
+using ListOfNames = std::vector<std::string>;
+const ListOfNames kNotes = {"components", "boundary-loops", "genus"};
 
 /// `soup` with line numbers: element i of each kind is on line 100 + i or so.
 Soup WithLines(Soup soup) {
@@ -63,7 +63,7 @@ TEST(CheckTest, HealthyMeshesHaveNotesOnly) {
 }
 
 TEST(CheckTest, NothingInIt) {
-  EXPECT_EQ(Kinds(CheckSoup(Soup())), (Names{"no-vertices", "no-elements"}));
+  EXPECT_EQ(Kinds(CheckSoup(Soup())), (ListOfNames{"no-vertices", "no-elements"}));
   ExpectFinding(WithLines(MakeSoup(Shape::Random(3, 4), {})), "no-elements", Severity::kFatal,
                 {"pose.obj", "no polygons and no segments"});
 }
@@ -184,15 +184,15 @@ TEST(CheckTest, Segments) {
   soup.segment_line = {300, 301};
   ExpectFinding(soup, "degenerate-segment", Severity::kFatal, {"(1): segment 2 (line 301)"});
   soup.segments[1] = {1, 2};
-  EXPECT_EQ(Kinds(CheckSoup(soup)), (Names{"components"}));
+  EXPECT_EQ(Kinds(CheckSoup(soup)), (ListOfNames{"components"}));
 }
 
 TEST(CheckTest, FindingsFallInSeverity) {
   Soup soup = MakeSoup(Shape::Random(3, 8), {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}, {5, 6, 6}});
   soup.vertices(0, 0) = std::nan("");
   const std::vector<Finding> findings = CheckSoup(soup);
-  EXPECT_EQ(Kinds(findings), (Names{"non-finite-coordinate", "repeated-corner", "non-manifold-edge",
-                                    "unreferenced-vertex"}));
+  EXPECT_EQ(Kinds(findings), (ListOfNames{"non-finite-coordinate", "repeated-corner",
+                                          "non-manifold-edge", "unreferenced-vertex"}));
 }
 
 }  // namespace

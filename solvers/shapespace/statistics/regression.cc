@@ -14,7 +14,7 @@ namespace shapespace {
 namespace {
 
 // A chance value counts as large as the true one if it is so but for rounding.
-constexpr double kRounding = 1e-9;
+constexpr double kRoundingOfTests = 1e-9;
 
 // Weighted least squares on fixed scalars, which keep their weights whatever data they are given.
 class LinearFit {
@@ -64,7 +64,8 @@ double PValue(const LinearFit& all, const LinearFit& others, const Eigen::Matrix
   internal::Permutations permutations(static_cast<int>(data.rows()), options.seed);
   int as_good = 1;
   for (int i = 0; i < options.permutations; ++i) {
-    if (ratio(fitted + Permuted(residuals, permutations.Next())) <= truth * (1 + kRounding)) {
+    if (ratio(fitted + Permuted(residuals, permutations.Next())) <=
+        truth * (1 + kRoundingOfTests)) {
       ++as_good;
     }
   }
