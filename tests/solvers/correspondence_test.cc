@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <numeric>
+#include <random>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -25,6 +26,7 @@
 #include "support/message_of.h"
 #include "support/motions.h"
 #include "support/remeshed.h"
+#include "support/thin_triangles.h"
 
 namespace shapespace {
 namespace {
@@ -86,14 +88,36 @@ TEST(Correspond, FindsTheMapWithoutMarkers) {
 // round.
 TEST(Correspond, OneMarkerDecidesBetweenMaps) {
   Remeshed bodies("stand");
-  const std::vector<CorrespondenceMarker> all = bodies.markers;
-  for (const CorrespondenceMarker& marker : all) {
-    bodies.markers = {marker};
-    const CorrespondenceResult result = bodies.Fit();
-    EXPECT_EQ(result.fitted.col(marker.template_vertex), bodies.target.col(marker.target_vertex));
-    EXPECT_LT(bodies.Errors(result.map).mean(), bodies.Edge()) << marker.template_vertex;
-    break;
+  const CorrespondenceMarker marker = bodies.markers.front();
+  bodies.markers = {marker};
+  const CorrespondenceResult result = bodies.Fit();
+  EXPECT_EQ(result.fitted.col(marker.template_vertex), bodies.target.col(marker.target_vertex));
+  EXPECT_LT(bodies.Errors(result.map).mean(), bodies.Edge());
+}
+
+// Needles, caps, and noise of a third of an edge at every tenth vertex.
+TEST(Correspond, FindsTheMapWithoutMarkersOnBadMeshes) {
+  const auto error = [](Remeshed bodies, const testing::PosedMesh& mesh) {
+    bodies.markers.clear();
+    bodies.second.connectivity = mesh.connectivity;
+    bodies.target = mesh.poses[0];
+    bodies.other_rest = mesh.poses[1];
+    return bodies.Errors(bodies.Fit().map).mean();
+  };
+  const Remeshed bodies("stride");
+  const testing::PosedMesh mesh = {bodies.second.connectivity, {bodies.target, bodies.other_rest}};
+  testing::PosedMesh noisy = mesh;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> noise(-bodies.Edge() / 3, bodies.Edge() / 3);
+  for (Eigen::Index v = 0; v < bodies.target.cols(); v += 10) {
+    for (double& x : noisy.poses[0].col(v)) x += noise(random);
   }
+  EXPECT_LT(error(bodies, noisy), 1.5 * bodies.Edge());
+  const auto with = [&](const Eigen::Vector3d& place) {
+    return testing::WithInnerVertices(mesh, place, 2);
+  };
+  EXPECT_LT(error(bodies, with(testing::NeedlePlace(1e-3))), bodies.Edge());
+  EXPECT_LT(error(bodies, with(testing::CapPlace(1e-3))), bodies.Edge());
 }
 
 TEST(Correspond, SaysWhyNothingIsFoundInABodyOfFourVertices) {
