@@ -1,0 +1,51 @@
+#include <shapespace/skinning/detail/moving_points.h>
+
+#include <cmath>
+
+#include <shapespace/base/error.h>
+
+namespace shapespace::internal {
+namespace {
+
+IndexLists NeighboursOfPoints(const Connectivity& connectivity, const std::vector<int>& vertices) {
+  std::vector<int> point_of(connectivity.NumVertices(), -1);
+  for (size_t i = 0; i < vertices.size(); ++i) point_of[vertices[i]] = static_cast<int>(i);
+  std::vector<int> begin = {0}, items;
+  for (const int vertex : vertices) {
+    for (const int edge : connectivity.EdgesOfVertices()[vertex]) {
+      items.push_back(point_of[connectivity.OtherEnd(edge, vertex)]);
+    }
+    begin.push_back(static_cast<int>(items.size()));
+  }
+  return {std::move(begin), std::move(items)};
+}
+
+}  // namespace
+
+MovingPoints MakeMovingPoints(const Path& path, int rest) {
+  const Connectivity& connectivity = *path.metric->connectivity;
+  MovingPoints points;
+  points.rest = rest;
+  for (int v = 0; v < connectivity.NumVertices(); ++v) {
+    if (connectivity.Representative(v) == v) points.vertices.push_back(v);
+  }
+  points.neighbours = NeighboursOfPoints(connectivity, points.vertices);
+  const int shapes = path.NumShapes();
+  points.moved.resize(3 * shapes, points.vertices.size());
+  points.centroids.resize(3, shapes);
+  for (int i = 0; i < shapes; ++i) {
+    auto rows = points.moved.middleRows<3>(3 * i);
+    rows = path.shapes[i](Eigen::all, points.vertices);
+    points.centroids.col(i) = rows.rowwise().mean();
+    rows.colwise() -= points.centroids.col(i);
+  }
+  const auto at_rest = points.moved.middleRows<3>(3 * rest);
+  points.size = std::sqrt(at_rest.squaredNorm() / points.NumPoints());
+  if (!(points.size > 0)) {
+    throw MeshError("all vertices of the rest pose are at one point: it has no bones");
+  }
+  points.moved /= points.size;
+  return points;
+}
+
+}  // namespace shapespace::internal
