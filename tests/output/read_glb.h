@@ -47,9 +47,9 @@ class Glb {
     const auto& accessor = json["accessors"].at(index);
     const auto& view = json["bufferViews"].at(accessor["bufferView"].get<int>());
     const std::string type = accessor["type"];
-    const int rows = type == "SCALAR" ? 1 : type.at(3) - '0';
+    const int rows = type == "SCALAR" ? 1 : type == "MAT4" ? 16 : type.at(3) - '0';
     const int component = accessor["componentType"];
-    const size_t size = component == 5123 ? 2 : 4;
+    const size_t size = component == 5121 ? 1 : component == 5123 ? 2 : 4;
     Eigen::MatrixXd values(rows, accessor["count"].get<int>());
     if (view["byteLength"] != values.size() * size) throw std::runtime_error("wrong length");
     for (Eigen::Index i = 0; i < values.size(); ++i) {
@@ -57,6 +57,7 @@ class Glb {
       values(i) = component == 5126   ? Number<float>(at)
                   : component == 5125 ? Number<uint32_t>(at)
                   : component == 5123 ? Number<uint16_t>(at)
+                  : component == 5121 ? Number<uint8_t>(at)
                                       : throw std::runtime_error("unknown component type");
     }
     return values;

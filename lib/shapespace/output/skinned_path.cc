@@ -36,6 +36,16 @@ void CheckJoints(const SkinnedPath& path) {
   }
 }
 
+bool HasBoneTwice(const SkinnedPath& path, Eigen::Index v) {
+  for (Eigen::Index k = 0; k < path.weights.rows(); ++k) {
+    for (Eigen::Index l = 0; l < k; ++l) {
+      const bool both = path.weights(k, v) > 0 && path.weights(l, v) > 0;
+      if (both && path.bones(k, v) == path.bones(l, v)) return true;
+    }
+  }
+  return false;
+}
+
 void CheckWeights(const SkinnedPath& path) {
   const Eigen::Index vertices = path.connectivity->NumVertices();
   CheckSkinned(path.bones.cols() == vertices && path.weights.cols() == vertices &&
@@ -48,6 +58,7 @@ void CheckWeights(const SkinnedPath& path) {
                      (weights.array() >= 0).all() && std::abs(weights.sum() - 1) <= kWeightSum,
                  "the weights of vertex " + std::to_string(v) +
                      " are negative, do not have sum 1, or belong to no joint");
+    CheckSkinned(!HasBoneTwice(path, v), "vertex " + std::to_string(v) + " has a bone twice");
   }
 }
 

@@ -43,7 +43,8 @@ struct SkinnedPath {
   std::vector<JointMotion> motions;  ///< of joint b in shape i: motions[i * joints.size() + b]
 
   /// k x m: the bones that move each vertex, and their weights, in descending order. Weights are
-  /// not negative and have sum 1; entries that are not needed have weight 0 and bone 0.
+  /// not negative and have sum 1, no bone is there twice, and entries that are not needed have
+  /// weight 0 and bone 0.
   Eigen::MatrixXi bones;
   Eigen::MatrixXd weights;
 
@@ -55,7 +56,7 @@ struct SkinnedPath {
 
   /// \throw MeshError if there is no joint or no shape, sizes do not fit together, parameters do
   ///        not ascend, a joint comes before its parent, weights are negative or do not have sum 1,
-  ///        or a number is not finite.
+  ///        a vertex has a bone twice, or a number is not finite.
   void Validate() const;
 
   /// Shape i as the bones make it, in the user's frame and unit.

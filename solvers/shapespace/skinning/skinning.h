@@ -42,8 +42,8 @@ struct SkinningOptions {
   /// share of it; in (0, 1).
   double tolerance = 0.002;
 
-  /// 1 or more. More lower the error further, by a tenth or so.
-  int max_iterations = 40;
+  /// 1 or more.
+  int max_iterations = 100;
 
   /// \throw InvalidOptions naming the field.
   void Validate() const;

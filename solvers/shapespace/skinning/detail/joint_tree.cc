@@ -44,70 +44,86 @@ std::vector<Shared> SharedByBones(const MovingPoints& points, const VertexWeight
   return shared;
 }
 
-int HeaviestBone(const VertexWeights& weights, int count) {
-  Eigen::VectorXd sums = Eigen::VectorXd::Zero(count);
-  for (Eigen::Index i = 0; i < weights.weights.size(); ++i) {
-    sums(weights.bones(i)) += weights.weights(i);
-  }
-  int heaviest = 0;
-  sums.maxCoeff(&heaviest);
-  return heaviest;
-}
-
-// The maximum spanning tree, from the root on (R. C. Prim 1957): bones in the order in which they
-// joined it, and the parent of each.
+// A spanning tree from its root on: bones in the order in which they joined it, and the parent of
+// each.
 struct Tree {
   std::vector<int> order, parent;
 };
 
-Tree SpanningTree(const Bones& bones, const std::vector<Shared>& shared, int root) {
-  const int count = bones.Count();
-  // Shared weight counts first, then nearness.
-  const auto closeness = [&](int b, int c) {
-    return std::make_pair(shared[b * count + c].weight,
-                          -(bones.joints[b].pivot - bones.joints[c].pivot).squaredNorm());
-  };
+// The tree with the greatest `closeness` of neighbours, grown from `root` (R. C. Prim 1957).
+template <typename Closeness>
+Tree SpanningTree(int count, int root, const Closeness& closeness) {
   Tree tree{{root}, std::vector<int>(count, -1)};
   std::vector<char> is_in(count, 0);
   is_in[root] = 1;
   while (static_cast<int>(tree.order.size()) < count) {
-    int best = -1;
+    int best = -1, parent = -1;
     for (int b = 0; b < count; ++b) {
       if (is_in[b]) continue;
       for (const int c : tree.order) {
-        if (best >= 0 && !(closeness(b, c) > closeness(best, tree.parent[best]))) continue;
-        if (best != b && best >= 0) tree.parent[best] = -1;
+        if (best >= 0 && !(closeness(b, c) > closeness(best, parent))) continue;
         best = b;
-        tree.parent[b] = c;
+        parent = c;
       }
     }
     is_in[best] = 1;
+    tree.parent[best] = parent;
     tree.order.push_back(best);
   }
   return tree;
 }
 
+// The bone without which the tree falls into the smallest parts: in the middle of the body, however
+// finely the mesh resolves its head or hands.
+int MiddleOfTree(const Tree& tree) {
+  const int count = static_cast<int>(tree.order.size());
+  // Bones behind each, itself included, and the most of them behind one child.
+  std::vector<int> behind(count, 1), most(count, 0);
+  for (int i = count - 1; i > 0; --i) {
+    const int bone = tree.order[i], parent = tree.parent[bone];
+    behind[parent] += behind[bone];
+    most[parent] = std::max(most[parent], behind[bone]);
+  }
+  int middle = tree.order[0];
+  const auto greatest_part = [&](int bone) { return std::max(most[bone], count - behind[bone]); };
+  for (const int bone : tree.order) {
+    if (greatest_part(bone) < greatest_part(middle)) middle = bone;
+  }
+  return middle;
+}
+
+// The pivot of a joint; `shared` is what its bone has in common with the parent's.
 Eigen::Vector3d PivotBetween(const Bones& bones, const Shared& shared, int bone, int parent,
                              double error) {
-  Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  for (int i = 0; i < bones.shapes; ++i) {
-    const Eigen::Matrix<double, 3, 4> relative =
-        bones.matrices.block<3, 4>(3 * i, 4 * bone) - bones.matrices.block<3, 4>(3 * i, 4 * parent);
-    matrix += relative.leftCols<3>().transpose() * relative.leftCols<3>();
-    right -= relative.leftCols<3>().transpose() * relative.col(3);
-  }
   Eigen::Vector3d expected = (bones.joints[bone].pivot + bones.joints[parent].pivot) / 2;
   double spread = (bones.joints[bone].pivot - expected).squaredNorm();
   if (shared.weight > 0) {
     expected = shared.positions / shared.weight;
     spread = std::max(0.0, shared.squares / shared.weight - expected.squaredNorm());
   }
-  const double trust =
-      kHinge * matrix.trace() + (spread > 0 ? bones.shapes * error * error / spread : 0);
-  if (!(trust > 0)) return expected;
-  matrix.diagonal().array() += trust;
-  return matrix.ldlt().solve(right + trust * expected);
+  // Of the point at `expected` + x, the sum of squared distances between its two places is
+  // x^T matrix x - 2 right^T x + square.
+  Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  double square = 0;
+  for (int i = 0; i < bones.shapes; ++i) {
+    const Eigen::Matrix<double, 3, 4> relative =
+        bones.matrices.block<3, 4>(3 * i, 4 * bone) - bones.matrices.block<3, 4>(3 * i, 4 * parent);
+    const Eigen::Vector3d apart = relative * expected.homogeneous();
+    matrix += relative.leftCols<3>().transpose() * relative.leftCols<3>();
+    right -= relative.leftCols<3>().transpose() * apart;
+    square += apart.squaredNorm();
+  }
+  const double hinge = kHinge * matrix.trace();
+  if (!(hinge > 0)) return expected;
+  matrix.diagonal().array() += hinge;
+  // How far the best point is from being at rest, and the accuracy of vertices, say how much the
+  // motions can be trusted.
+  const double left = std::max(0.0, square - right.dot(matrix.ldlt().solve(right)));
+  if (spread > 0) {
+    matrix.diagonal().array() += (left + bones.shapes * error * error) / spread;
+  }
+  return expected + matrix.ldlt().solve(right);
 }
 
 void OrderWeights(const std::vector<int>& number, VertexWeights* weights) {
@@ -131,7 +147,12 @@ void OrderWeights(const std::vector<int>& number, VertexWeights* weights) {
 void MakeSkeleton(const MovingPoints& points, double error, Bones* bones, VertexWeights* weights) {
   const int count = bones->Count();
   const std::vector<Shared> shared = SharedByBones(points, *weights, count);
-  const Tree tree = SpanningTree(*bones, shared, HeaviestBone(*weights, count));
+  // Shared weight counts first, then nearness.
+  const auto closeness = [&](int b, int c) {
+    return std::make_pair(shared[b * count + c].weight,
+                          -(bones->joints[b].pivot - bones->joints[c].pivot).squaredNorm());
+  };
+  const Tree tree = SpanningTree(count, MiddleOfTree(SpanningTree(count, 0, closeness)), closeness);
   std::vector<Eigen::Vector3d> pivots;
   for (const int bone : tree.order) {
     const int parent = tree.parent[bone];

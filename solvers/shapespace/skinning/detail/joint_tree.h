@@ -7,17 +7,18 @@
 
 namespace shapespace::internal {
 
-/// Makes a skeleton of bones. The root is the bone with the greatest sum of weights. Bones that
-/// move the same points are neighbours, and of all trees that connect them so, the skeleton is the
-/// one in which neighbours share the most: the maximum spanning tree of the sums of products of
-/// weights. Where that leaves several trees, because components of the body share no bone, the
-/// bones whose centroids are the nearest connect them.
+/// Makes a skeleton of bones. Bones that move the same points are neighbours, and of all trees that
+/// connect them so, the skeleton is the one in which neighbours share the most: the maximum
+/// spanning tree of the sums of products of weights. Where that leaves several trees, because
+/// components of the body share no bone, the bones whose centroids are the nearest connect them.
+/// The root is the bone without which the tree falls into the smallest parts.
 ///
 /// The pivot of a joint is the point that moves least when its bone moves relative to the parent's:
 /// the minimum, over all shapes, of the squared distances between the places to which the two move
-/// it. Motions tell nothing about some directions, such as along a hinge's axis; `error`, the root
-/// mean square distance of points from where the bones move them, says how much they can be
-/// trusted, and as far as they cannot, the pivot is at the centroid of what the two bones share.
+/// it. Where motions tell nothing, such as along a hinge's axis, or cannot be trusted, because no
+/// point rests or because of `error`, the root mean square distance of points from where the bones
+/// move them, the pivot is near the centroid of what the two bones share, at a distance that the
+/// spread of that region permits.
 ///
 /// Parents are set, bones are ordered with parents before children, pivots are moved without
 /// changing any motion, and weights follow the order, the greatest of each point first.
