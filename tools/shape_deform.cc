@@ -161,7 +161,7 @@ dark if they stay, and red if they move. The default metric depends on whether t
 (stiffer, with a cost of volume) or open; --metric selects another; --volume 30 keeps the volume
 within .3 %.)") +
            kHowASolveEnds,
-       {"deform", "obstacle", "report", "summary", "outputs", "camera", "metric", "poses", "mesh",
-        "memory", "outside_files"}},
+       {"deform", "obstacle", "report", "summary", "outputs", "camera", "bones", "metric", "poses",
+        "mesh", "memory", "outside_files"}},
       Run);
 }

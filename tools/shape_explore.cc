@@ -197,7 +197,7 @@ has the lengths of the geodesics between every two poses, and no more. An
 interrupted run can be continued: finished geodesics are stored in poses.space.records until the
 space is complete. With mpirun -n 4 in front, four processes share the geodesics (--threads is the
 number of threads of each process).)",
-       {"explore", "geodesic", "report", "summary", "outputs", "camera", "metric", "poses", "mesh",
-        "memory", "outside_files"}},
+       {"explore", "geodesic", "report", "summary", "outputs", "camera", "bones", "metric", "poses",
+        "mesh", "memory", "outside_files"}},
       Run);
 }

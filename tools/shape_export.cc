@@ -104,6 +104,6 @@ int main(int argc, char** argv) {
                   R"(  shape-export walk.path --output walk.png,frames/%03d.obj --frames 40 --ease
   shape-export walk.path --output quarter%d.obj --at .25,.5,.75
   shape-export walk.path --output middle.obj --at .5)",
-                  {"export", "outputs", "camera", "anchor", "memory", "outside_files"}},
+                  {"export", "outputs", "camera", "bones", "anchor", "memory", "outside_files"}},
                  Run);
 }

@@ -164,7 +164,7 @@ blue, shapes between them green, extrapolated ones purple.
 If the shape degenerates, the outputs contain the shapes before that, and stderr says so: exit code
 0 if there are new shapes, 1 if there are none.)") +
            kHowASolveEnds,
-       {"extrapolate", "geodesic", "report", "summary", "outputs", "camera", "metric", "poses",
-        "mesh", "memory", "anchor", "outside_files"}},
+       {"extrapolate", "geodesic", "report", "summary", "outputs", "camera", "bones", "metric",
+        "poses", "mesh", "memory", "anchor", "outside_files"}},
       Run);
 }

@@ -107,6 +107,6 @@ Through three or more poses the path is a chain of geodesics, whose velocity jum
 With --spline it is smooth there.)") +
            kHowASolveEnds,
        {"geodesic", "contact", "obstacle", "spline", "report", "summary", "outputs", "camera",
-        "anchor", "metric", "poses", "mesh", "memory", "outside_files"}},
+        "bones", "anchor", "metric", "poses", "mesh", "memory", "outside_files"}},
       Run);
 }

@@ -254,7 +254,7 @@ so on. For a .path there is one frame per shape. With --method ladder the geodes
 --shapes + 1 segments, each of which is transferred; the flags of the metric are those of these
 geodesics. In a film strip the target is blue, its other shapes are purple, hybrids are green.)") +
            kHowASolveEnds,
-       {"transfer", "geodesic", "report", "summary", "outputs", "camera", "metric", "poses", "mesh",
-        "memory", "anchor", "correspondence", "outside_files"}},
+       {"transfer", "geodesic", "report", "summary", "outputs", "camera", "bones", "metric",
+        "poses", "mesh", "memory", "anchor", "correspondence", "outside_files"}},
       Run);
 }

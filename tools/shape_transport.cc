@@ -152,7 +152,7 @@ It is transported in parallel along the path to its last shape, which then moves
 with that velocity (the exponential): an .obj or .ply without a number in its name is its end, and
 - writes that to stdout, as PLY. --tangents writes the tangents themselves, in the poses' unit.)") +
                       kHowASolveEnds,
-                  {"transport", "geodesic", "report", "summary", "outputs", "camera", "metric",
-                   "poses", "mesh", "memory", "outside_files"}},
+                  {"transport", "geodesic", "report", "summary", "outputs", "camera", "bones",
+                   "metric", "poses", "mesh", "memory", "outside_files"}},
                  Run);
 }

@@ -18,6 +18,7 @@
 #include <shapespace/deformation/internal/summary_fields.h>
 #include <shapespace/exploration/internal/summary_fields.h>
 #include <shapespace/exponential/internal/summary_fields.h>
+#include <shapespace/skinning/internal/summary_fields.h>
 #include <shapespace/spline/internal/summary_fields.h>
 #include <shapespace/statistics/internal/summary_fields.h>
 #include <shapespace/summary/internal/json_of.h>
@@ -31,7 +32,7 @@ const std::set<std::string>& Counters() {
   static const std::set<std::string> counters = {
       // What there is.
       "vertices", "triangles", "edges", "hinges", "poses", "shapes", "nodes", "cells", "parts",
-      "markers", "modes", "rank", "first_count", "second_count", "inner_shapes", "piece",
+      "bones", "markers", "modes", "rank", "first_count", "second_count", "inner_shapes", "piece",
       "distance_vertices", "template_vertices", "template_triangles", "target_vertices",
       "target_triangles", "factor_nonzeros", "requested_steps", "threads", "processes",
       // What was done.
@@ -102,6 +103,7 @@ Visitor VisitAll() {
   SHAPESPACE_VISIT(CorrectionSummary);
   SHAPESPACE_VISIT(TransportSummary);
   SHAPESPACE_VISIT(TransportSummary::Step);
+  SHAPESPACE_VISIT(SkinningSummary);
   SHAPESPACE_VISIT(SplineSummary);
   SHAPESPACE_VISIT(ExploreSummary);
   SHAPESPACE_VISIT(ExploreSummary::Level);

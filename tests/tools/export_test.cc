@@ -10,6 +10,7 @@ namespace {
 
 using testing::Content;
 using testing::ExpectContains;
+using testing::ExpectLacks;
 using testing::Outcome;
 using testing::ToolsTest;
 
@@ -54,6 +55,54 @@ TEST_F(ExportTest, EasedFramesMoveLessAtTheEnds) {
   };
   EXPECT_LT(3 * step(0), step(3));
   EXPECT_LT(3 * step(7), step(4));
+}
+
+TEST_F(ExportTest, WritesBonesInsteadOfMorphTargets) {
+  MakePath();
+  const Outcome exported =
+      Run("shape-export", {"walk.path", "--bones", "6", "--output", "bones.glb,walk.usda"});
+  EXPECT_EQ(exported.code, 0) << exported.err;
+  ExpectContains(exported.out, "6 bones");
+  const std::string glb = Content(Path("bones.glb"));
+  ExpectContains(glb, "\"skins\"");
+  ExpectContains(glb, "bone_06");
+  ExpectLacks(glb, "bone_07");
+  ExpectLacks(glb, "\"targets\"");
+
+  // As many as are needed: more for less error, and the error is as asked for.
+  int bytes = 0;
+  for (const char* error : {"5%", ".005"}) {
+    Succeed("shape-export", {"walk.path", "--bones", "auto", "--bone_error", error, "--seconds",
+                             "2", "--output", "auto.glb"});
+    const int now = static_cast<int>(std::filesystem::file_size(Path("auto.glb")));
+    EXPECT_GT(now, bytes);
+    bytes = now;
+  }
+  // A solve writes bones too.
+  Succeed("shape-interpolate", {"tube0.obj", "tube1.obj", "--shapes", "3", "--bones", "4",
+                                "--bone_scale", "--output", "solved.glb"});
+  ExpectContains(Content(Path("solved.glb")), "bone_04_scale");
+}
+
+TEST_F(ExportTest, RefusesBonesThatItCannotMake) {
+  MakePath();
+  const auto refuses = [&](std::vector<std::string> flags, const std::string& named) {
+    flags.insert(flags.begin(), "walk.path");
+    const Outcome outcome = Run("shape-export", flags);
+    EXPECT_EQ(outcome.code, 2) << named;
+    ExpectContains(outcome.err, named);
+  };
+  refuses({"--bones", "0", "--output", "a.glb"}, "--bones 0");
+  refuses({"--bones", "2.5", "--output", "a.glb"}, "--bones 2.5");
+  refuses({"--bones", "many", "--output", "a.glb"}, "--bones");
+  refuses({"--bones", "501", "--output", "a.glb"}, "--bones 501");
+  refuses({"--bones", "5", "--output", "a.usda"}, ".glb");
+  refuses({"--bones", "5", "--bone_error", "1%", "--output", "a.glb"}, "--bone_error");
+  refuses({"--bones", "auto", "--bone_error", "100%", "--output", "a.glb"}, "--bone_error 100%");
+  refuses({"--bones", "auto", "--bone_error", "1,2", "--output", "a.glb"}, "--bone_error");
+  refuses({"--bone_scale", "--output", "a.glb"}, "--bones");
+  refuses({"--bones", "5", "--bone_weights", "9", "--output", "a.glb"}, "--bone_weights 9");
+  refuses({"--bones", "5", "--color", "deviation", "--output", "a.glb"}, "--color");
 }
 
 TEST_F(ExportTest, WritesPicturesAndAnimations) {

@@ -97,9 +97,26 @@ TEST_F(HelpTest, ListsOurFlagsOnly) {
   wanted.insert({"allow_mirrored", "allow_nonmanifold", "allow_outside_files", "help", "help-all",
                  "mirror", "open_seams", "progress", "report", "threads", "version"});
   EXPECT_EQ(Listed("shape-inspect"), wanted);
-  wanted.insert({"color", "ease", "fps", "loop", "loose_components", "max_iterations",
-                 "memory_limit", "once", "output", "report", "seconds", "shapes", "solver",
-                 "stiffeners", "strict", "tolerance"});
+  wanted.insert({"bone_error",
+                 "bone_scale",
+                 "bone_weights",
+                 "bones",
+                 "color",
+                 "ease",
+                 "fps",
+                 "loop",
+                 "loose_components",
+                 "max_iterations",
+                 "memory_limit",
+                 "once",
+                 "output",
+                 "report",
+                 "seconds",
+                 "shapes",
+                 "solver",
+                 "stiffeners",
+                 "strict",
+                 "tolerance"});
   const std::set<std::string> listed = Listed("shape-interpolate");
   for (const std::string& flag : wanted) EXPECT_EQ(listed.count(flag), 1u) << flag;
   // Tools that begin with an interpolation of poses have the same flags but for those of smooth

@@ -13,6 +13,7 @@
 #include <shapespace/output/internal/option_fields.h>
 #include <shapespace/output/path_output.h>
 
+#include "support/bones_flags.h"
 #include "support/camera_flags.h"
 #include "support/command_line.h"
 #include "support/flag_group.h"
@@ -157,6 +158,14 @@ void Write(const PathOutput& output, const Path& path, const PathOutputOptions& 
     const Soup soup = FrameSoup(*path.metric->connectivity, path.appearance);
     return WriteMeshAndTell(output.file, path.Placed(path.NumShapes() - 1), soup);
   }
+  if (output.kind == Kind::kGltf && BonesAreAsked()) {
+    GltfOptions gltf = options.gltf;
+    gltf.colour_by_deviation = options.colours == PathColours::kDeviation;
+    gltf.groups = options.parts;
+    WriteBones(output.file, path, gltf);
+    Out() << "wrote " << output.file << '\n';
+    return;
+  }
   const PathOutputSummary summary = WritePathOutput(output, path, options);
   for (const std::string& warning : summary.warnings) {
     if (output.kind == Kind::kGltf) {
@@ -189,7 +198,12 @@ std::vector<std::string> OutputsFromFlags() {
   // Before the solve, not after it.
   NamingFlags({}, [] { FilmStripOptionsFromFlags().Validate(); });
   NamingFlags({{"duration", "seconds"}}, [] { GltfOptionsFromFlags().Validate(); });
-  return OutputsFromFlag("output", FLAGS_output);
+  const std::vector<std::string> outputs = OutputsFromFlag("output", FLAGS_output);
+  CheckBonesFlags(outputs);
+  if (BonesAreAsked() && FLAGS_color == "deviation") {
+    throw UsageError("--color deviation: bones cannot show it; write the .glb without --bones");
+  }
+  return outputs;
 }
 
 std::vector<std::string> OutputsFromFlag(const std::string& flag, const std::string& list) {

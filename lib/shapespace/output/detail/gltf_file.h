@@ -13,8 +13,8 @@
 
 namespace shapespace::internal {
 
-/// The times of `PlaybackMoments` in single precision, which increase although parameters may differ
-/// by less than that resolves.
+/// The times of `PlaybackMoments` in single precision, which increase although parameters may
+/// differ by less than that resolves.
 Eigen::RowVectorXf TimesOf(const std::vector<std::pair<double, double>>& moments);
 
 /// A node that transforms the user's coordinates relative to `origin` to glTF's, in metres and with
