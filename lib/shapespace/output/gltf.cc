@@ -34,7 +34,8 @@ void CheckPath(const std::string& file, const Path& path) {
   }
 }
 
-Eigen::Matrix3Xf DeviationColours(const Path& path, const Shape& reference, double* scale_end) {
+Eigen::Matrix3Xf LinearDeviationColours(const Path& path, const Shape& reference,
+                                        double* scale_end) {
   Eigen::VectorXd largest = Eigen::VectorXd::Zero(reference.cols());
   for (const Shape& shape : path.shapes) {
     largest = largest.cwiseMax(EdgeDeviation(*path.metric, reference, shape));
@@ -94,7 +95,7 @@ std::vector<double> KeyTimes(const Path& path, const std::vector<int>& keys) {
 Eigen::MatrixXf VertexColours(const Path& path, const GltfOptions& options, double* colour_end) {
   if (options.colour_by_deviation) {
     const Shape& reference = options.reference.cols() > 0 ? options.reference : path.shapes[0];
-    return DeviationColours(path, reference, colour_end);
+    return LinearDeviationColours(path, reference, colour_end);
   }
   if (options.groups.size() != 0) return internal::GroupColours(options.groups);
   return internal::LinearColours(path.appearance.vertex_colours);

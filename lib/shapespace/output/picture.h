@@ -96,9 +96,8 @@ RgbImage RenderFilmStrip(const Connectivity& connectivity, const std::vector<Sha
 /// A picture of each shape, all of one size, for a film or a series of slides. They show the same
 /// part of the world from one camera, so that shapes are where they are; the longer side of that
 /// part is `frame_width` pixels. All shapes are drawn: `max_frames` and `columns` have no effect.
-/// \throw as RenderFilmStrip, of all pictures together; InvalidOptions if shapes are so far from
-/// each
-///        other that they would be as small as a pixel.
+/// \throw as RenderFilmStrip, of all pictures together; InvalidOptions if shapes are so far
+///        from each other that they would be as small as a pixel.
 std::vector<RgbImage> RenderFilm(const Connectivity& connectivity, const std::vector<Shape>& shapes,
                                  const FilmStripOptions& options = {});
 

@@ -100,8 +100,7 @@ struct SkinningResult {
 ///
 /// If `progress` asks to stop, the best result so far is returned.
 /// \throw InvalidOptions; MeshError (the path has one shape only, is not valid, or its rest pose
-/// has
-///        no extent); Cancelled (stopped before there were bones).
+///        has no extent); Cancelled (stopped before there were bones).
 SkinningResult Skin(const Path& path, const SkinningOptions& options = {},
                     Progress* progress = nullptr);
 

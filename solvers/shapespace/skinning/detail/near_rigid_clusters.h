@@ -18,9 +18,8 @@ struct NearRigidClusters {
 
 /// Has `bone` begin anew where errors are the greatest: it moves as a patch of points does, of
 /// a quarter of a bone's share of all points, or fewer if that does not lower the error there. The
-/// place is
-/// where errors are the greatest on average over neighbours, because the greatest of all is often
-/// an outlier. `squared_errors`, of each point, are those before.
+/// place is where errors are the greatest on average over neighbours, because the greatest of all
+/// is often an outlier. `squared_errors`, of each point, are those before.
 void BeginBone(const MovingPoints& points, const Eigen::VectorXd& squared_errors, int count,
                int bone, Bones* bones);
 
