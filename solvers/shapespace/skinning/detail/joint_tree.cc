@@ -46,14 +46,14 @@ std::vector<Shared> SharedByBones(const MovingPoints& points, const VertexWeight
 
 // A spanning tree from its root on: bones in the order in which they joined it, and the parent of
 // each.
-struct Tree {
+struct BoneTree {
   std::vector<int> order, parent;
 };
 
 // The tree with the greatest `closeness` of neighbours, grown from `root` (R. C. Prim 1957).
 template <typename Closeness>
-Tree SpanningTree(int count, int root, const Closeness& closeness) {
-  Tree tree{{root}, std::vector<int>(count, -1)};
+BoneTree SpanningTree(int count, int root, const Closeness& closeness) {
+  BoneTree tree{{root}, std::vector<int>(count, -1)};
   std::vector<char> is_in(count, 0);
   is_in[root] = 1;
   while (static_cast<int>(tree.order.size()) < count) {
@@ -75,7 +75,7 @@ Tree SpanningTree(int count, int root, const Closeness& closeness) {
 
 // The bone without which the tree falls into the smallest parts: in the middle of the body, however
 // finely the mesh resolves its head or hands.
-int MiddleOfTree(const Tree& tree) {
+int MiddleOfTree(const BoneTree& tree) {
   const int count = static_cast<int>(tree.order.size());
   // Bones behind each, itself included, and the most of them behind one child.
   std::vector<int> behind(count, 1), most(count, 0);
@@ -152,7 +152,8 @@ void MakeSkeleton(const MovingPoints& points, double error, Bones* bones, Vertex
     return std::make_pair(shared[b * count + c].weight,
                           -(bones->joints[b].pivot - bones->joints[c].pivot).squaredNorm());
   };
-  const Tree tree = SpanningTree(count, MiddleOfTree(SpanningTree(count, 0, closeness)), closeness);
+  const BoneTree tree =
+      SpanningTree(count, MiddleOfTree(SpanningTree(count, 0, closeness)), closeness);
   std::vector<Eigen::Vector3d> pivots;
   for (const int bone : tree.order) {
     const int parent = tree.parent[bone];
