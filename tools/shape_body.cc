@@ -25,8 +25,8 @@ DEFINE_int32(random, 0, "number of quadrupeds of random proportions in random po
 DEFINE_int32(seed, 1, "of --random; the same animals for the same seed");
 DEFINE_string(table, "", "a .csv file with the proportions of the --random animals");
 DEFINE_string(output, "body%d.obj",
-              "one file per value, numbered from 0: .obj, .ply, .off or .stl; or -: one shape to "
-              "stdout, as PLY");
+              "one file per value, numbered from 0, or one without a number for one value: .obj, "
+              ".ply, .off or .stl; or -: one shape to stdout, as PLY");
 FLAG_GROUP(body, "Body", "at, output, pose, proportions, random, seed, triangles");
 
 namespace shapespace::tools {
@@ -38,22 +38,29 @@ std::string Join(const std::vector<std::string>& parts) {
   return list;
 }
 
+// One shape needs no number in its name.
+bool OutputIsOneFile() { return FLAGS_output.find('%') == std::string::npos; }
+
 void CheckOutput() {
   if (!IsMeshOrStdout(FLAGS_output)) {
     throw UsageError("--output " + FLAGS_output +
                      ": must end in .obj, .ply, .off or .stl, or be -");
   }
-  if (FLAGS_output == "-") return;
-  CheckFramePattern("output", FLAGS_output);
+  if (!OutputIsOneFile()) CheckFramePattern("output", FLAGS_output);
 }
 
-void Write(const std::vector<Shape>& shapes, const Connectivity& connectivity) {
-  const Soup soup = FrameSoup(connectivity);
-  if (FLAGS_output != "-") return WriteFramesAndTell(FLAGS_output, shapes, soup);
-  if (shapes.size() != 1) {
-    throw UsageError("--output -: is for one shape, and there are " +
-                     std::to_string(shapes.size()) + "; choose one by --at or --pose");
+// Says what the body is, if there is something to be said, and writes the shapes.
+void Write(const std::vector<Shape>& shapes, const Connectivity& connectivity,
+           const std::string& description = "") {
+  if (OutputIsOneFile() && shapes.size() != 1) {
+    throw UsageError("--output " + FLAGS_output + ": is for one shape, and there are " +
+                     std::to_string(shapes.size()) +
+                     "; choose one by --at or --pose, or give a name for frames, such as "
+                     "frames/%03d.obj");
   }
+  Out() << description;
+  const Soup soup = FrameSoup(connectivity);
+  if (!OutputIsOneFile()) return WriteFramesAndTell(FLAGS_output, shapes, soup);
   WriteMeshAndTell(FLAGS_output, shapes[0], soup);
 }
 
@@ -73,10 +80,11 @@ void WritePoses(const std::string& name) {
   const SkinnedBody body = MakeSkinnedBody(name, FLAGS_triangles, FLAGS_proportions);
   std::vector<Shape> shapes;
   for (const std::string& pose : Split(FLAGS_pose)) shapes.push_back(body.pose(pose));
-  Out() << body.name << ": " << body.connectivity->NumVertices() << " vertices, "
-        << body.connectivity->NumTriangles() << " triangles; poses are " << Join(body.pose_names)
-        << '\n';
-  Write(shapes, *body.connectivity);
+  std::ostringstream description;
+  description << body.name << ": " << body.connectivity->NumVertices() << " vertices, "
+              << body.connectivity->NumTriangles() << " triangles; poses are "
+              << Join(body.pose_names) << '\n';
+  Write(shapes, *body.connectivity, description.str());
 }
 
 void WriteRandomAnimals(const std::string& name) {
@@ -101,7 +109,9 @@ void WriteRandomAnimals(const std::string& name) {
   Write(shapes, *connectivity);
   if (FLAGS_table.empty()) return;
   std::vector<std::string> files, columns;
-  for (int i = 0; i < FLAGS_random; ++i) files.push_back(FrameName(FLAGS_output, i));
+  for (int i = 0; i < FLAGS_random; ++i) {
+    files.push_back(OutputIsOneFile() ? FLAGS_output : FrameName(FLAGS_output, i));
+  }
   for (const auto& [measure, value] : form.Measures()) columns.push_back(measure);
   WritePoseTable(FLAGS_table, files, columns, measures);
   Out() << "wrote " << FLAGS_table << '\n';
@@ -113,10 +123,11 @@ void WriteValues(const std::string& name) {
   std::vector<double> values = {body.begin, body.end};
   if (!FLAGS_at.empty()) values = NumbersFromFlag("at", FLAGS_at);
   for (double value : values) shapes.push_back(body.pose(value));
-  Out() << body.name << ": " << body.connectivity->NumVertices() << " vertices, "
-        << body.connectivity->NumTriangles() << " triangles; " << body.parameter << " from "
-        << body.begin << " to " << body.end << '\n';
-  Write(shapes, *body.connectivity);
+  std::ostringstream description;
+  description << body.name << ": " << body.connectivity->NumVertices() << " vertices, "
+              << body.connectivity->NumTriangles() << " triangles; " << body.parameter << " from "
+              << body.begin << " to " << body.end << '\n';
+  Write(shapes, *body.connectivity, description.str());
 }
 
 void Run(const std::vector<std::string>& arguments) {

@@ -40,6 +40,13 @@ TEST_F(BodyToolTest, WritesOneFileAValue) {
             (std::vector<std::string>{"a", "a/b", "a/b/00.ply", "a/b/01.ply", "a/b/02.ply"}));
 }
 
+TEST_F(BodyToolTest, OneShapeNeedsNoNumberInItsName) {
+  Succeed("shape-body", {"quadruped", "--triangles", "500", "--random", "1", "--output", "a.obj",
+                         "--table", "a.csv"});
+  EXPECT_EQ(Files(), (std::vector<std::string>{"a.csv", "a.obj"}));
+  EXPECT_EQ(ReadPoseTable(Path("a.csv")).NumbersOf({"a"}).rows(), 1);
+}
+
 TEST_F(BodyToolTest, ListsPosesAndProportions) {
   const Outcome outcome = Run("shape-body", {});
   ExpectContains(outcome.out,
@@ -103,7 +110,8 @@ TEST_F(BodyToolTest, RefusesWhatItCannotMake) {
       {{"tube", "--at", "0,x"}, "--at 0,x: 'x' is not a number"},
       {{"tube", "--at", "200"}, "--at 200: 200 is outside 0 .. 150"},
       {{"tube", "--triangles=-5"}, "--triangles -5: -5 is outside"},
-      {{"tube", "--output", "tube.obj"}, "needs one number"},
+      {{"tube", "--output", "tube.obj"}, "there are 2"},
+      {{"tube", "--output", "tube%d%d.obj"}, "needs one number"},
       {{"tube", "--output", "tube%d.glb"}, "must end in .obj, .ply, .off or .stl"},
   };
   for (const auto& [arguments, message] : cases) {

@@ -267,7 +267,7 @@ TEST_F(ExtrapolateTest, WrongCommandLines) {
       {{"walk.path", "--step_iterations", "0"}, "--step_iterations 0: must be"},
       {{"walk.path", "--correct=-1"}, "--correct -1: must be"},
       {{"walk.path", "--report", "r.html"}, "--report r.html: must end in .json or .txt, or be -"},
-      {{"walk.path", "--output", "on.gif"}, "on.gif: must end in"},
+      {{"walk.path", "--output", "on.tif"}, "on.tif: must end in"},
   };
   for (const auto& [arguments, message] : cases) {
     SCOPED_TRACE(message);

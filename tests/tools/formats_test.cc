@@ -91,7 +91,7 @@ TEST_F(FormatsTest, FramesAreTheSameInAllFormats) {
   EXPECT_NO_THROW(ReadPoses({Path("0.stl"), Path("4.stl")}));
   const Outcome numbered = Run("shape-export", {"walk.path", "--output", "w%d.pc2"});
   EXPECT_EQ(numbered.code, 2);
-  ExpectContains(numbered.err, "only meshes and .vtp are numbered");
+  ExpectContains(numbered.err, "one .pc2 contains the whole path");
 }
 
 // A series for ParaView can be worked on there, and its files taken as poses again.

@@ -111,7 +111,7 @@ TEST_F(MessagesTest, OfExport) {
   expect(2, {"--at", ".5,,1"}, {"--at .5,,1: ", "''"});
   expect(2, {"--at", "inf"}, {"--at inf: ", "'inf'"});
   expect(2, {"--ground_line", "1,2"}, {"--ground_line 1,2: "});
-  expect(2, {"--up", "x"}, {"--up x: "});
+  expect(2, {"--up", "w"}, {"--up w: "});
   expect(2, {"--loop", "--once"}, {"--loop and --once"});
 }
 

@@ -218,9 +218,9 @@ TEST_F(TransferTest, WrongCommandLines) {
       {{"tube0.obj", "tube1.obj", "--shapes", "3"}, "--shapes: goes with --method ladder"},
       {{"tube0.obj", "tube1.obj", "--lambda", "1e-3"}, "--lambda: goes with --method ladder"},
       {{"tube0.obj", "tube1.obj", "--noscale"}, "--scale: goes with --method ladder or --hybrids"},
-      {{"walk.path", "--hybrids", "half.gif"}, "--hybrids half.gif: must end in"},
+      {{"walk.path", "--hybrids", "half.tif"}, "--hybrids half.tif: must end in"},
       {{"walk.path", "--hybrids", "half.obj"}, "--hybrids "},
-      {{"walk.path", "--output", "on.gif"}, "--output on.gif: must end in"},
+      {{"walk.path", "--output", "on.tif"}, "--output on.tif: must end in"},
       {{"walk.path", "--report", "r.html"}, "--report r.html: must end in .json or .txt, or be -"},
   };
   for (const auto& [given, message] : cases) {

@@ -15,9 +15,8 @@
 #include "support/tool.h"
 
 DEFINE_string(bones, "",
-              "glb: this number of bones, with weights of vertices, instead of morph targets, so "
-              "that engines and animators can use the motion; or auto: as few as --bone_error "
-              "needs");
+              "glb: so many bones with weights, for engines and animators, instead of morph "
+              "targets; or auto: as few as --bone_error needs");
 DEFINE_string(bone_error, ".5%",
               "glb with --bones auto: permitted distance of vertices from their places, root mean "
               "square, as a share of half the diagonal of the mesh");
