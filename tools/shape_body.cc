@@ -1,5 +1,7 @@
 // Writes poses of generated bodies.
 
+#include <sstream>
+
 #include <gflags/gflags.h>
 
 #include <shapespace/base/internal/extension.h>
