@@ -1,6 +1,7 @@
 #include <shapespace/output/detail/palette.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <iterator>
 #include <limits>
@@ -84,7 +85,7 @@ std::vector<Rgb> CutColours(Colours colours, int most) {
   std::vector<Rgb> result;
   for (const ColourBox& box : boxes) {
     Rgb& colour = result.emplace_back();
-    for (int c = 0; c < 3; ++c) colour[c] = static_cast<unsigned char>(box.mean[c] + 0.5);
+    for (int c = 0; c < 3; ++c) colour[c] = static_cast<unsigned char>(std::lround(box.mean[c]));
   }
   return result;
 }
