@@ -15,7 +15,6 @@ PROJECT = pathlib.Path(__file__).resolve().parents[2]
 PAGES = {
     "docs/guide/python.md": "walk.png",
     "docs/guide/features.md": "area.path",
-    "README.md": "walk.png",
 }
 
 

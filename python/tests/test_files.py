@@ -55,7 +55,7 @@ def test_a_path_is_written_in_every_form(path, tmp_path):
         with pytest.raises(TypeError, match="'colour'.*did you mean 'color'"):
             path.write(tmp_path / name, colour="parts")
     with pytest.raises(shapespace.FileError, match="must end in"):
-        path.write(tmp_path / "walk.mp4")
+        path.write(tmp_path / "walk.tif")
     with pytest.raises(TypeError, match="'title'"):
         path.write(tmp_path / "walk.path", title="a walk")
 
