@@ -24,6 +24,8 @@ fi
 
 mkdir "$work/pages"
 cd "$work/pages"
+exec 3>&2
+trap 'cat "$work/log" >&3' ERR
 {
   "$bin/shape-body" quadruped --pose sit,stretch --triangles 3000 --output 'animal%d.obj'
   "$bin/shape-interpolate" animal0.obj animal1.obj --shapes 7 --output walk.path,walk.glb
@@ -69,13 +71,11 @@ EOF
   "$bin/shape-view" 'small cat/body0.obj' lion/body0.obj --output markers.html
   "$bin/shape-view" animal0.obj --output mesh.html
   "$bin/shape-body" quadruped --pose stride --proportions heavy --triangles 4000 --output 'other%d.obj'
-  "$bin/shape-correspond" template0.obj other0.obj --output fit.html --markers_out found.txt
+  "$bin/shape-correspond" 'small cat/body0.obj' other0.obj --output fit.html --markers_out found.txt
   SHAPESPACE_PAGE_DIR=$PWD SHAPESPACE_PAGE_TEMPLATE=$root/tools/viewer/dist/viewer.html \
     "$root/build/release/tests/output/output_test" --gtest_filter='PageTest.WritesSpaces*'
   cp "$root/tools/viewer/dist/viewer.html" empty.html
-} >"$work/log" 2>&1 || {
-  cat "$work/log"
-  exit 1
-}
+} >"$work/log" 2>&1
+trap - ERR
 cd "$work"
 SHAPESPACE_PAGE_DIR=$work/pages SHAPESPACE_PAGE_BIN=$bin node --test page.test.mjs explained.test.mjs
