@@ -1,7 +1,5 @@
 // Writes poses of generated bodies.
 
-#include <sstream>
-
 #include <gflags/gflags.h>
 
 #include <shapespace/base/internal/extension.h>
@@ -51,16 +49,15 @@ void CheckOutput() {
   if (!OutputIsOneFile()) CheckFramePattern("output", FLAGS_output);
 }
 
-// Says what the body is, if there is something to be said, and writes the shapes.
-void Write(const std::vector<Shape>& shapes, const Connectivity& connectivity,
-           const std::string& description = "") {
-  if (OutputIsOneFile() && shapes.size() != 1) {
-    throw UsageError("--output " + FLAGS_output + ": is for one shape, and there are " +
-                     std::to_string(shapes.size()) +
-                     "; choose one by --at or --pose, or give a name for frames, such as "
-                     "frames/%03d.obj");
-  }
-  Out() << description;
+void CheckOutputIsFor(const std::vector<Shape>& shapes) {
+  if (!OutputIsOneFile() || shapes.size() == 1) return;
+  throw UsageError("--output " + FLAGS_output + ": is for one shape, and there are " +
+                   std::to_string(shapes.size()) +
+                   "; choose one by --at or --pose, or give a name for frames, such as "
+                   "frames/%03d.obj");
+}
+
+void Write(const std::vector<Shape>& shapes, const Connectivity& connectivity) {
   const Soup soup = FrameSoup(connectivity);
   if (!OutputIsOneFile()) return WriteFramesAndTell(FLAGS_output, shapes, soup);
   WriteMeshAndTell(FLAGS_output, shapes[0], soup);
@@ -82,11 +79,11 @@ void WritePoses(const std::string& name) {
   const SkinnedBody body = MakeSkinnedBody(name, FLAGS_triangles, FLAGS_proportions);
   std::vector<Shape> shapes;
   for (const std::string& pose : Split(FLAGS_pose)) shapes.push_back(body.pose(pose));
-  std::ostringstream description;
-  description << body.name << ": " << body.connectivity->NumVertices() << " vertices, "
-              << body.connectivity->NumTriangles() << " triangles; poses are "
-              << Join(body.pose_names) << '\n';
-  Write(shapes, *body.connectivity, description.str());
+  CheckOutputIsFor(shapes);
+  Out() << body.name << ": " << body.connectivity->NumVertices() << " vertices, "
+        << body.connectivity->NumTriangles() << " triangles; poses are " << Join(body.pose_names)
+        << '\n';
+  Write(shapes, *body.connectivity);
 }
 
 void WriteRandomAnimals(const std::string& name) {
@@ -108,6 +105,7 @@ void WriteRandomAnimals(const std::string& name) {
     int column = 0;
     for (const auto& [measure, value] : individual.Measures()) measures(i, column++) = value;
   }
+  CheckOutputIsFor(shapes);
   Write(shapes, *connectivity);
   if (FLAGS_table.empty()) return;
   std::vector<std::string> files, columns;
@@ -125,11 +123,11 @@ void WriteValues(const std::string& name) {
   std::vector<double> values = {body.begin, body.end};
   if (!FLAGS_at.empty()) values = NumbersFromFlag("at", FLAGS_at);
   for (double value : values) shapes.push_back(body.pose(value));
-  std::ostringstream description;
-  description << body.name << ": " << body.connectivity->NumVertices() << " vertices, "
-              << body.connectivity->NumTriangles() << " triangles; " << body.parameter << " from "
-              << body.begin << " to " << body.end << '\n';
-  Write(shapes, *body.connectivity, description.str());
+  CheckOutputIsFor(shapes);
+  Out() << body.name << ": " << body.connectivity->NumVertices() << " vertices, "
+        << body.connectivity->NumTriangles() << " triangles; " << body.parameter << " from "
+        << body.begin << " to " << body.end << '\n';
+  Write(shapes, *body.connectivity);
 }
 
 void Run(const std::vector<std::string>& arguments) {

@@ -43,20 +43,11 @@ namespace {
 
 bool IsSpaceFile(const std::string& file) { return internal::FileExtension(file) == ".space"; }
 
-double ThresholdFromFlag() {
-  std::string text = FLAGS_threshold;
-  const bool is_percent = !text.empty() && text.back() == '%';
-  if (is_percent) text.pop_back();
-  const std::vector<double> numbers = NumbersFromFlag("threshold", text);
-  if (numbers.size() != 1) throw UsageError(AsTyped("threshold") + ": must be one number");
-  return is_percent ? numbers[0] / 100 : numbers[0];
-}
-
 // `records` is the folder for finished geodesics.
 ExploreOptions ExploreFromFlags(const std::string& records) {
   ExploreOptions options;
   options.geodesic = GeodesicFromFlags();
-  options.threshold = ThresholdFromFlag();
+  options.threshold = ShareFromFlag("threshold", FLAGS_threshold);
   options.records = records;
   flags.Set(&options);
   if (FLAGS_measure < 0) throw UsageError(AsTyped("measure") + ": must be 0 or more");

@@ -29,15 +29,6 @@ FLAG_GROUP(bones, "Output", "bones");
 namespace shapespace::tools {
 namespace {
 
-// A number, or a percentage.
-double ShareFromFlag(const std::string& flag, const std::string& text) {
-  const bool per_cent = !text.empty() && text.back() == '%';
-  const std::vector<double> numbers =
-      NumbersFromFlag(flag, per_cent ? text.substr(0, text.size() - 1) : text);
-  if (numbers.size() != 1) throw UsageError(AsTyped(flag) + ": must be one number");
-  return per_cent ? numbers[0] / 100 : numbers[0];
-}
-
 SkinningOptions SkinningOptionsFromFlags() {
   SkinningOptions options;
   options.weights_per_vertex = FLAGS_bone_weights;

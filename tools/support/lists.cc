@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <sstream>
 
+#include "support/command_line.h"
 #include "support/tool.h"
 
 namespace shapespace::tools {
@@ -30,6 +31,14 @@ std::vector<double> NumbersFromFlag(const std::string& flag, const std::string& 
     numbers.push_back(number);
   }
   return numbers;
+}
+
+double ShareFromFlag(const std::string& flag, const std::string& text) {
+  const bool is_percent = !text.empty() && text.back() == '%';
+  const std::vector<double> numbers =
+      NumbersFromFlag(flag, is_percent ? text.substr(0, text.size() - 1) : text);
+  if (numbers.size() != 1) throw UsageError(AsTyped(flag) + ": must be one number");
+  return is_percent ? numbers[0] / 100 : numbers[0];
 }
 
 }  // namespace shapespace::tools

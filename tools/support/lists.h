@@ -13,6 +13,10 @@ std::vector<std::string> Split(const std::string& list);
 /// \throw UsageError naming the flag and the invalid number.
 std::vector<double> NumbersFromFlag(const std::string& flag, const std::string& text);
 
+/// The one number in `text`, the value of `flag`, which may be a percentage: .05 or 5%.
+/// \throw UsageError naming the flag if it is none.
+double ShareFromFlag(const std::string& flag, const std::string& text);
+
 }  // namespace shapespace::tools
 
 #endif  // SHAPESPACE_TOOLS_SUPPORT_LISTS_H_
