@@ -33,6 +33,17 @@ void Bones::Select(const std::vector<int>& kept) {
   *this = std::move(selected);
 }
 
+std::vector<int> Bones::Keep(const std::vector<char>& is_used) {
+  std::vector<int> kept, number(is_used.size(), 0);
+  for (size_t bone = 0; bone < is_used.size(); ++bone) {
+    if (!is_used[bone]) continue;
+    number[bone] = static_cast<int>(kept.size());
+    kept.push_back(static_cast<int>(bone));
+  }
+  Select(kept);
+  return number;
+}
+
 void FitBone(const MovingPoints& points, const std::vector<int>& part, int bone, Bones* bones) {
   const double count = static_cast<double>(part.size());
   Eigen::VectorXd mean = Eigen::VectorXd::Zero(points.moved.rows());

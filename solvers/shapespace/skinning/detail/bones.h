@@ -26,6 +26,8 @@ struct Bones {
   void UpdateMatrices(int bone);
   /// Keeps the bones of these numbers, in this order.
   void Select(const std::vector<int>& kept);
+  /// Keeps those that are used, in their order. Returns the new number of each; 0 for the others.
+  std::vector<int> Keep(const std::vector<char>& is_used);
 };
 
 /// Makes a bone move as the points of `part` do, by the rigid motion that is the nearest in the

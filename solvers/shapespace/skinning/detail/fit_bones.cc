@@ -1,6 +1,5 @@
 #include <shapespace/skinning/detail/fit_bones.h>
 
-#include <cmath>
 #include <utility>
 
 #include <shapespace/skinning/detail/bone_motions.h>
@@ -28,23 +27,12 @@ void BeginUnusedBoneAnew(const MovingPoints& points, const VertexWeights& weight
 }
 
 void RemoveUnusedBones(FittedBones* fitted) {
-  const std::vector<char> is_used = UsedBones(fitted->weights, fitted->bones.Count());
-  std::vector<int> kept, number(fitted->bones.Count(), 0);
-  for (int b = 0; b < fitted->bones.Count(); ++b) {
-    if (!is_used[b]) continue;
-    number[b] = static_cast<int>(kept.size());
-    kept.push_back(b);
-  }
-  fitted->bones.Select(kept);
+  const std::vector<int> number =
+      fitted->bones.Keep(UsedBones(fitted->weights, fitted->bones.Count()));
   for (int& bone : fitted->weights.bones.reshaped()) bone = number[bone];
 }
 
 }  // namespace
-
-double RootMeanSquare(const MovingPoints& points, const Eigen::VectorXd& squared_errors) {
-  return std::sqrt(squared_errors.sum() /
-                   (points.NumPoints() * static_cast<double>(points.NumShapes())));
-}
 
 FittedBones FitBones(const MovingPoints& points, int count, const SkinningOptions& options,
                      Progress* progress) {

@@ -23,9 +23,6 @@ struct FittedBones {
   Termination termination = Termination::kMaxIterations;
 };
 
-/// Root mean square distance, over points and shapes, from squared errors (`SquaredErrors`).
-double RootMeanSquare(const MovingPoints& points, const Eigen::VectorXd& squared_errors);
-
 /// At most `count` bones, without a hierarchy; fewer if the others would have no use.
 FittedBones FitBones(const MovingPoints& points, int count, const SkinningOptions& options,
                      Progress* progress);

@@ -1,8 +1,10 @@
 #include <shapespace/skinning/detail/moving_points.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include <shapespace/base/error.h>
+#include <shapespace/base/parallel.h>
 
 namespace shapespace::internal {
 namespace {
@@ -46,6 +48,17 @@ MovingPoints MakeMovingPoints(const Path& path, int rest) {
   }
   points.moved /= points.size;
   return points;
+}
+
+double RootMeanSquare(const MovingPoints& points, const Eigen::VectorXd& squared_errors) {
+  return std::sqrt(squared_errors.sum() /
+                   (points.NumPoints() * static_cast<double>(points.NumShapes())));
+}
+
+void ForRunsOfPoints(int num_points, const std::function<void(int begin, int end)>& body) {
+  constexpr int kRun = 128;
+  ParallelFor((num_points + kRun - 1) / kRun,
+              [&](int run) { body(run * kRun, std::min(num_points, (run + 1) * kRun)); });
 }
 
 }  // namespace shapespace::internal

@@ -1,6 +1,7 @@
 #ifndef SHAPESPACE_SKINNING_DETAIL_MOVING_POINTS_H_
 #define SHAPESPACE_SKINNING_DETAIL_MOVING_POINTS_H_
 
+#include <functional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -27,6 +28,14 @@ struct MovingPoints {
 
 /// \throw MeshError if the rest pose has no extent.
 MovingPoints MakeMovingPoints(const Path& path, int rest);
+
+/// Root mean square distance, over points and shapes, from the squared distance of each point,
+/// summed over shapes.
+double RootMeanSquare(const MovingPoints& points, const Eigen::VectorXd& squared_errors);
+
+/// Calls `body(begin, end)` for runs of consecutive points, so that those of a run share working
+/// memory, on several threads (`ParallelFor`).
+void ForRunsOfPoints(int num_points, const std::function<void(int begin, int end)>& body);
 
 }  // namespace shapespace::internal
 

@@ -1,7 +1,6 @@
 #include <shapespace/skinning/detail/near_rigid_clusters.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include <shapespace/base/parallel.h>
 
@@ -69,11 +68,7 @@ class Clustering {
   }
 
   // Root mean square distance of points from where their bones move them.
-  double Error() const {
-    double sum = 0;
-    for (int p = 0; p < points_.NumPoints(); ++p) sum += errors_(bone_of_[p], p);
-    return std::sqrt(sum / (points_.NumPoints() * static_cast<double>(points_.NumShapes())));
-  }
+  double Error() const { return RootMeanSquare(points_, SquaredErrors()); }
 
   // Begins a bone where the error is greatest: one that no point follows, or a new one. Returns
   // false if all bones have begun.
@@ -83,9 +78,7 @@ class Clustering {
     while (bone < bones_.Count() && !parts[bone].empty()) ++bone;
     if (bone == count_) return false;
     if (bone == bones_.Count()) bones_.Append();
-    Eigen::VectorXd errors(points_.NumPoints());
-    for (int p = 0; p < points_.NumPoints(); ++p) errors(p) = errors_(bone_of_[p], p);
-    internal::BeginBone(points_, errors, count_, bone, &bones_);
+    internal::BeginBone(points_, SquaredErrors(), count_, bone, &bones_);
     changed_ = {bone};
     UpdateErrors();
     return true;
@@ -116,19 +109,21 @@ class Clustering {
   // The bones that points follow.
   NearRigidClusters Result() const {
     NearRigidClusters result{bones_, bone_of_};
-    const auto parts = Parts();
-    std::vector<int> kept, number(bones_.Count(), -1);
-    for (int b = 0; b < bones_.Count(); ++b) {
-      if (parts[b].empty()) continue;
-      number[b] = static_cast<int>(kept.size());
-      kept.push_back(b);
-    }
-    result.bones.Select(kept);
+    std::vector<char> is_followed(bones_.Count(), 0);
+    for (const int bone : bone_of_) is_followed[bone] = 1;
+    const std::vector<int> number = result.bones.Keep(is_followed);
     for (int& bone : result.bone_of) bone = number[bone];
     return result;
   }
 
  private:
+  // Squared distance of each point from where its bone moves it, summed over shapes.
+  Eigen::VectorXd SquaredErrors() const {
+    Eigen::VectorXd errors(points_.NumPoints());
+    for (int p = 0; p < points_.NumPoints(); ++p) errors(p) = errors_(bone_of_[p], p);
+    return errors;
+  }
+
   std::vector<std::vector<int>> Parts() const {
     std::vector<std::vector<int>> parts(bones_.Count());
     for (int p = 0; p < points_.NumPoints(); ++p) parts[bone_of_[p]].push_back(p);
@@ -137,11 +132,9 @@ class Clustering {
 
   // The squared distances of all points from where the bones that have changed move them.
   void UpdateErrors() {
-    constexpr int kAtOnce = 128;
-    ParallelFor((points_.NumPoints() + kAtOnce - 1) / kAtOnce, [&](int chunk) {
+    ForRunsOfPoints(points_.NumPoints(), [&](int begin, int end) {
       Eigen::VectorXd residual(points_.moved.rows());
-      const int end = std::min(points_.NumPoints(), (chunk + 1) * kAtOnce);
-      for (int p = chunk * kAtOnce; p < end; ++p) {
+      for (int p = begin; p < end; ++p) {
         const Eigen::Vector4d rest = points_.Rest(p).homogeneous();
         for (const int b : changed_) {
           residual = -points_.moved.col(p);

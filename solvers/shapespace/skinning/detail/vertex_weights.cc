@@ -1,15 +1,9 @@
 #include <shapespace/skinning/detail/vertex_weights.h>
 
-#include <algorithm>
-
-#include <shapespace/base/parallel.h>
 #include <shapespace/skinning/detail/simplex_minimum.h>
 
 namespace shapespace::internal {
 namespace {
-
-// Points whose working memory is shared.
-constexpr int kPointsAtOnce = 128;
 
 SimplexPoint PointOf(const VertexWeights& weights, int p) {
   SimplexPoint point;
@@ -41,12 +35,10 @@ VertexWeights OneBoneEach(const std::vector<int>& bone_of, int weights_per_verte
 
 Eigen::VectorXd SquaredErrors(const MovingPoints& points, const Bones& bones,
                               const VertexWeights& weights) {
-  const int count = points.NumPoints();
-  Eigen::VectorXd errors(count);
-  ParallelFor((count + kPointsAtOnce - 1) / kPointsAtOnce, [&](int chunk) {
+  Eigen::VectorXd errors(points.NumPoints());
+  ForRunsOfPoints(points.NumPoints(), [&](int begin, int end) {
     Eigen::VectorXd residual(points.moved.rows());
-    const int end = std::min(count, (chunk + 1) * kPointsAtOnce);
-    for (int p = chunk * kPointsAtOnce; p < end; ++p) {
+    for (int p = begin; p < end; ++p) {
       const Eigen::Vector4d rest = points.Rest(p).homogeneous();
       residual = -points.moved.col(p);
       for (Eigen::Index k = 0; k < weights.weights.rows(); ++k) {
@@ -62,14 +54,12 @@ Eigen::VectorXd SquaredErrors(const MovingPoints& points, const Bones& bones,
 }
 
 void FitWeights(const MovingPoints& points, const Bones& bones, VertexWeights* weights) {
-  const int count = points.NumPoints();
   const int most = static_cast<int>(weights->weights.rows());
-  ParallelFor((count + kPointsAtOnce - 1) / kPointsAtOnce, [&](int chunk) {
+  ForRunsOfPoints(points.NumPoints(), [&](int begin, int end) {
     Eigen::MatrixXd residuals(points.moved.rows(), bones.Count());
     Eigen::MatrixXd gram(bones.Count(), bones.Count());
     Eigen::VectorXd gradient(bones.Count());
-    const int end = std::min(count, (chunk + 1) * kPointsAtOnce);
-    for (int p = chunk * kPointsAtOnce; p < end; ++p) {
+    for (int p = begin; p < end; ++p) {
       const Eigen::Vector4d rest = points.Rest(p).homogeneous();
       // Weights have sum 1, so that the residual is the mean of those of the single bones.
       for (int b = 0; b < bones.Count(); ++b) {
