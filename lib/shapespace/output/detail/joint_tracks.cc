@@ -6,8 +6,9 @@ namespace shapespace::internal {
 namespace {
 
 // A joint relative to its parent, or to `origin` without rotation, from their axes and places.
+// `motions` are those of all joints in one shape.
 JointPose Relative(const SkinnedPath& path, int joint, const Eigen::Vector3d& origin,
-                   const std::vector<JointMotion>& motions) {
+                   const JointMotion* motions) {
   const auto frame = [&](int b) -> Eigen::Matrix3d {
     return motions[b].rotation * path.joints[b].axes;
   };
@@ -39,7 +40,7 @@ JointPose Between(const JointPose& first, const JointPose& last, double part) {
 JointPose RestPoseOf(const SkinnedPath& path, int joint, const Eigen::Vector3d& origin) {
   std::vector<JointMotion> motions(path.joints.size());
   for (size_t b = 0; b < motions.size(); ++b) motions[b].place = path.joints[b].pivot;
-  return Relative(path, joint, origin, motions);
+  return Relative(path, joint, origin, motions.data());
 }
 
 std::vector<JointPose> PosesAt(const SkinnedPath& path, int joint, const Eigen::Vector3d& origin,
@@ -47,9 +48,7 @@ std::vector<JointPose> PosesAt(const SkinnedPath& path, int joint, const Eigen::
   const size_t joints = path.joints.size();
   std::vector<JointPose> of_shapes;
   for (int i = 0; i < path.NumShapes(); ++i) {
-    const auto begin = path.motions.begin() + i * static_cast<std::ptrdiff_t>(joints);
-    of_shapes.push_back(
-        Relative(path, joint, origin, {begin, begin + static_cast<std::ptrdiff_t>(joints)}));
+    of_shapes.push_back(Relative(path, joint, origin, &path.motions[i * joints]));
   }
   const std::vector<double>& parameters = path.parameters;
   std::vector<JointPose> poses;

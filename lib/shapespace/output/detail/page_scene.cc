@@ -169,8 +169,7 @@ void AppendView(const Connectivity& connectivity, const std::vector<Shape>& shap
   std::vector<RayScene> scenes;
   for (const Shape& shape : small) scenes.emplace_back(tracer, shape, Eigen::VectorXf());
   Eigen::Vector3d up = view.up.isZero(0) ? ChooseUp(connectivity, small) : view.up.normalized();
-  // Seen from above or below, the other of the two axes points up.
-  if (view.up.isZero(0) && !view.eye.isZero(0) && Parallel(up, view.eye)) std::swap(up[1], up[2]);
+  if (view.up.isZero(0) && !view.eye.isZero(0)) up = UpBeside(view.eye, up);
   const Eigen::Vector3d eye =
       view.eye.isZero(0) ? Eigen::Vector3d(ChooseView(connectivity, small, scenes, up).col(2))
                          : view.eye.normalized();

@@ -121,8 +121,7 @@ Axes CameraAxes(const Connectivity& connectivity, const std::vector<Shape>& shap
         std::abs(up.stableNormalized().dot(options.view.stableNormalized())) > kHorizontal) {
       throw InvalidOptions("view", "must be horizontal, perpendicular to up, with a ground line");
     }
-    // If seen from above or below, the other of the two axes points up.
-    if (Parallel(up, options.view)) up = Eigen::Vector3d(0, up.z(), up.y());
+    if (options.up.isZero(0)) up = UpBeside(options.view, up);
     return LookFrom(options.view, up);
   }
   const std::vector<Shape> ends = {shapes.front(), shapes.back()};

@@ -155,6 +155,10 @@ Eigen::Vector3d ChooseUp(const Connectivity& connectivity, const std::vector<Sha
   return up;
 }
 
+Eigen::Vector3d UpBeside(const Eigen::Vector3d& eye, const Eigen::Vector3d& up) {
+  return Parallel(eye, up) ? Eigen::Vector3d(0, up.z(), up.y()) : up;
+}
+
 Axes LookFrom(const Eigen::Vector3d& eye, const Eigen::Vector3d& up) {
   Axes axes;
   axes.col(2) = eye.stableNormalized();

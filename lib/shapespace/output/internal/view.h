@@ -21,6 +21,9 @@ bool Parallel(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 /// in mesh files. An open surface that would face down gets the other one.
 Eigen::Vector3d ChooseUp(const Connectivity& connectivity, const std::vector<Shape>& shapes);
 
+/// `up`, which is +y or +z, or the other of the two if a view from `eye` would be along it.
+Eigen::Vector3d UpBeside(const Eigen::Vector3d& eye, const Eigen::Vector3d& up);
+
 /// Looks from `eye` (any length). `up` must not be parallel to it.
 Axes LookFrom(const Eigen::Vector3d& eye, const Eigen::Vector3d& up);
 
