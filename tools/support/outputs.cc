@@ -198,7 +198,7 @@ std::vector<std::string> OutputsFromFlags() {
   // Before the solve, not after it.
   NamingFlags({}, [] { FilmStripOptionsFromFlags().Validate(); });
   NamingFlags({{"duration", "seconds"}}, [] { GltfOptionsFromFlags().Validate(); });
-  const std::vector<std::string> outputs = OutputsFromFlag("output", FLAGS_output);
+  std::vector<std::string> outputs = OutputsFromFlag("output", FLAGS_output);
   CheckBonesFlags(outputs);
   if (BonesAreAsked() && FLAGS_color == "deviation") {
     throw UsageError("--color deviation: bones cannot show it; write the .glb without --bones");
