@@ -1,4 +1,4 @@
-// Writes outputs of an existing path.
+// Writes outputs of an existing path, or of meshes that are the frames of a motion.
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +8,8 @@
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/extension.h>
 #include <shapespace/files/write.h>
+#include <shapespace/metric/metric.h>
+#include <shapespace/path/path.h>
 
 #include "support/anchor_flags.h"
 #include "support/command_line.h"
@@ -15,6 +17,7 @@
 #include "support/lists.h"
 #include "support/memory_flag.h"
 #include "support/outputs.h"
+#include "support/poses.h"
 #include "support/tool.h"
 
 DEFINE_string(at, "",
@@ -54,8 +57,35 @@ std::vector<double> TimesFromFlags(const Path& path) {
   return times;
 }
 
+// Meshes as they are, one after the other, evenly in time.
+Path ReadFrames(const std::vector<std::string>& files) {
+  const Poses frames = ReadPosesFromFlags(files);
+  Path path =
+      MakePath(FreezeMetric(MetricOptions(), frames.connectivity, frames.shapes), frames.shapes);
+  path.provenance = Provenance("shape-export", files);
+  path.appearance = frames.soup.appearance;
+  return path;
+}
+
+// The path of a file, or that of frames.
+Path ReadMotion(const std::vector<std::string>& files) {
+  if (!std::any_of(files.begin(), files.end(), IsPathFile)) {
+    if (files.size() == 1 && IsWritableMesh(files[0])) {
+      throw FileError(
+          files[0] +
+          " is one mesh; name all frames of a motion, or a path, which is made of poses "
+          "by: shape-interpolate " +
+          files[0] + " OTHER --output walk.path");
+    }
+    return ReadFrames(files);
+  }
+  if (files.size() != 1) throw UsageError("name one .path file, or the meshes of a motion");
+  RefuseFlags({"poses", "mesh"}, {}, "goes with meshes; " + files[0] + " is a path");
+  return ReadPathAndTell(files[0]);
+}
+
 void Run(const std::vector<std::string>& files) {
-  if (files.size() != 1) throw UsageError("name one .path file");
+  if (files.empty()) throw UsageError("name one .path file, or the meshes of a motion");
   // One shape needs no number in its name.
   if (!FLAGS_at.empty() && NumbersFromFlag("at", FLAGS_at).size() == 1) WriteLastShapeAlone();
   const std::vector<std::string> outputs = OutputsFromFlags();
@@ -73,22 +103,18 @@ void Run(const std::vector<std::string>& files) {
     throw UsageError("--ease goes with --frames, or with a .gif, .apng or .glb");
   }
   AnchorFlags anchorage = AnchorFlags::FromFlags();
-  if (IsWritableMesh(files[0])) {
-    throw FileError(files[0] +
-                    " is a mesh, not a .path; a path is made of poses by: shape-interpolate " +
-                    files[0] + " OTHER --output walk.path");
-  }
-  const Path path = ReadPathAndTell(files[0]);
+  const Path path = ReadMotion(files);
   anchorage.Select(path.Placed(0), *path.metric->connectivity, path.appearance, path.poses.size());
   const std::vector<double> times = TimesFromFlags(path);
-  CheckNothingIsOverwritten(files, {{"output", outputs, static_cast<std::int64_t>(times.size())}});
+  CheckNothingIsOverwritten(WithStiffeners(files),
+                            {{"output", outputs, static_cast<std::int64_t>(times.size())}});
   Path shown = path;
   if (times != path.parameters) {
     NamingFlags({{"times", "at"}}, [&] { shown = Resample(path, times); });
   }
   anchorage.Apply(path, &shown);
   Out() << shown.NumShapes() << (shown.NumShapes() == 1 ? " shape of " : " shapes of ") << files[0]
-        << '\n';
+        << (files.size() > 1 ? ", ...\n" : "\n");
   WriteOutputs(outputs, shown, path);
 }
 
@@ -100,10 +126,12 @@ int main(int argc, char** argv) {
   gflags::SetCommandLineOptionWithMode("output", "path.png", gflags::SET_FLAGS_DEFAULT);
   return RunTool(argc, argv,
                  {"shape-export",
-                  "meshes and pictures of a path, without solving again",
+                  "meshes and pictures of a path, or of the frames of a motion, without solving",
                   R"(  shape-export walk.path --output walk.png,frames/%03d.obj --frames 40 --ease
   shape-export walk.path --output quarter%d.obj --at .25,.5,.75
-  shape-export walk.path --output middle.obj --at .5)",
-                  {"export", "outputs", "camera", "bones", "anchor", "memory", "outside_files"}},
+  shape-export walk.path --output middle.obj --at .5
+  shape-export frames/*.ply --output walk.glb --bones 20)",
+                  {"export", "outputs", "camera", "bones", "anchor", "poses", "mesh", "memory",
+                   "outside_files"}},
                  Run);
 }

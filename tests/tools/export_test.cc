@@ -33,6 +33,28 @@ TEST_F(ExportTest, GivesTheVeryFramesOfTheSolve) {
   }
 }
 
+TEST_F(ExportTest, TakesMeshesAsTheFramesOfAMotion) {
+  MakePath();
+  const std::vector<std::string> frames = {"solved0.ply", "solved1.ply", "solved2.ply",
+                                           "solved3.ply", "solved4.ply"};
+  std::vector<std::string> arguments = frames;
+  arguments.insert(arguments.end(), {"--output", "again%d.ply,again.pc2"});
+  Succeed("shape-export", arguments);
+  for (int i = 0; i < 5; ++i) {
+    const Shape frame = Vertices(frames[i]);
+    const Shape again = Vertices("again" + std::to_string(i) + ".ply");
+    EXPECT_LT((again - frame).norm(), 1e-12 * frame.norm());
+  }
+  arguments = frames;
+  arguments.insert(arguments.end(), {"--at", "0.25", "--output", "second.ply"});
+  Succeed("shape-export", arguments);
+  EXPECT_LT((Vertices("second.ply") - Vertices("solved1.ply")).norm(), 1e-9);
+  // A path among meshes, flags of meshes that a path does not need, and overwriting are refused.
+  EXPECT_EQ(Run("shape-export", {"walk.path", "tube0.obj"}).code, 2);
+  EXPECT_EQ(Run("shape-export", {"walk.path", "--open_seams"}).code, 2);
+  EXPECT_EQ(Run("shape-export", {"tube0.obj", "tube1.obj", "--output", "tube1.obj"}).code, 2);
+}
+
 TEST_F(ExportTest, ShowsOtherTimes) {
   MakePath();
   Succeed("shape-export", {"walk.path", "--at", ".25,.4,1", "--output", "at%d.ply"});
