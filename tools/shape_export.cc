@@ -59,6 +59,12 @@ std::vector<double> TimesFromFlags(const Path& path) {
 
 // Meshes as they are, one after the other, evenly in time.
 Path ReadFrames(const std::vector<std::string>& files) {
+  if (files.size() == 1 && IsWritableMesh(files[0])) {
+    throw FileError(files[0] +
+                    " is one mesh; name all frames of a motion, or a path, which is made of poses "
+                    "by: shape-interpolate " +
+                    files[0] + " OTHER --output walk.path");
+  }
   const Poses frames = ReadPosesFromFlags(files);
   Path path =
       MakePath(FreezeMetric(MetricOptions(), frames.connectivity, frames.shapes), frames.shapes);
@@ -67,25 +73,14 @@ Path ReadFrames(const std::vector<std::string>& files) {
   return path;
 }
 
-// The path of a file, or that of frames.
-Path ReadMotion(const std::vector<std::string>& files) {
-  if (!std::any_of(files.begin(), files.end(), IsPathFile)) {
-    if (files.size() == 1 && IsWritableMesh(files[0])) {
-      throw FileError(
-          files[0] +
-          " is one mesh; name all frames of a motion, or a path, which is made of poses "
-          "by: shape-interpolate " +
-          files[0] + " OTHER --output walk.path");
-    }
-    return ReadFrames(files);
-  }
-  if (files.size() != 1) throw UsageError("name one .path file, or the meshes of a motion");
+Path ReadMotion(const std::vector<std::string>& files, bool is_path) {
+  if (!is_path) return ReadFrames(files);
   RefuseFlags({"poses", "mesh"}, {}, "goes with meshes; " + files[0] + " is a path");
   return ReadPathAndTell(files[0]);
 }
 
 void Run(const std::vector<std::string>& files) {
-  if (files.empty()) throw UsageError("name one .path file, or the meshes of a motion");
+  const bool is_path = IsPathAlone(files);
   // One shape needs no number in its name.
   if (!FLAGS_at.empty() && NumbersFromFlag("at", FLAGS_at).size() == 1) WriteLastShapeAlone();
   const std::vector<std::string> outputs = OutputsFromFlags();
@@ -103,7 +98,7 @@ void Run(const std::vector<std::string>& files) {
     throw UsageError("--ease goes with --frames, or with a .gif, .apng or .glb");
   }
   AnchorFlags anchorage = AnchorFlags::FromFlags();
-  const Path path = ReadMotion(files);
+  const Path path = ReadMotion(files, is_path);
   anchorage.Select(path.Placed(0), *path.metric->connectivity, path.appearance, path.poses.size());
   const std::vector<double> times = TimesFromFlags(path);
   CheckNothingIsOverwritten(WithStiffeners(files),

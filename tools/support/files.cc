@@ -83,6 +83,14 @@ void CheckCanBeWritten(const std::string& file) {
 
 bool IsPathFile(const std::string& file) { return internal::FileExtension(file) == ".path"; }
 
+bool IsPathAlone(const std::vector<std::string>& files) {
+  const bool is_path = std::any_of(files.begin(), files.end(), IsPathFile);
+  if (is_path ? files.size() != 1 : files.empty()) {
+    throw UsageError("name at least two poses of one mesh, or one .path file alone");
+  }
+  return is_path;
+}
+
 Path ReadPathAndTell(const std::string& file) {
   Path path = ReadPath(file);
   if (!path.converged) {

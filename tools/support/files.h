@@ -30,6 +30,10 @@ void CheckCanBeWritten(const std::string& file);
 /// Whether a file is a .path, by its name.
 bool IsPathFile(const std::string& file);
 
+/// Whether the inputs are one .path file, and not meshes. \throw UsageError if there are no inputs,
+/// or a path beside others.
+bool IsPathAlone(const std::vector<std::string>& files);
+
 /// Reads a .path file, and prints a warning if its solve did not converge.
 /// \throw FileError.
 Path ReadPathAndTell(const std::string& file);

@@ -1,16 +1,14 @@
 #include "support/geodesic_flags.h"
 
-#include <algorithm>
-
 #include <gflags/gflags.h>
 
 #include <shapespace/geodesic/internal/option_fields.h>
 
+#include "support/files.h"
 #include "support/flag_group.h"
 #include "support/memory_flag.h"
 #include "support/metric_flags.h"
 #include "support/option_flags.h"
-#include "support/outputs.h"
 #include "support/tool.h"
 
 static const shapespace::tools::OptionFlags<shapespace::GeodesicOptions> flags(
@@ -39,11 +37,7 @@ std::int64_t NumShapes(size_t poses, const GeodesicOptions& options) {
 }
 
 bool IsOnePath(const std::vector<std::string>& files, const std::string& own) {
-  const bool is_path = std::any_of(files.begin(), files.end(), IsPathFile);
-  if (is_path ? files.size() != 1 : files.empty()) {
-    throw UsageError("name at least two poses of one mesh, or one .path file alone");
-  }
-  if (!is_path) return false;
+  if (!IsPathAlone(files)) return false;
   RefuseFlags({"geodesic", "metric"}, {"stiffeners", "loose_components"},
               "goes with poses; " + files[0] + " is solved already and contains its metric", own);
   return true;
