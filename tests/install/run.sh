@@ -87,10 +87,16 @@ if ldd "$work/features/features_consumer" | grep -i ceres; then
   fail "a program that only defines features links Ceres"
 fi
 
+# Units as those of the release build: ccache has them then.
+units=()
+for option in CMAKE_UNITY_BUILD CMAKE_UNITY_BUILD_BATCH_SIZE; do
+  units+=("-D$(grep "^$option:" "$build/CMakeCache.txt")")
+done
+
 # Shared libraries export what is public, and of the rest only what they, the tools, the Python module
 # and a program that defines a feature call. Tools and program work with them.
 shared=$root/build/shared
-cmake -S "$root" -B "$shared" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON \
+cmake -S "$root" -B "$shared" -G Ninja -DCMAKE_BUILD_TYPE=Release "${units[@]}" \
   "-D$(grep '^SHAPESPACE_WERROR:' "$build/CMakeCache.txt")" \
   -DBUILD_SHARED_LIBS=ON -DSHAPESPACE_BUILD_PYTHON=ON -DSHAPESPACE_BUILD_TESTS=OFF \
   -DPython_EXECUTABLE=/usr/bin/python3 -DPYTHON_EXECUTABLE=/usr/bin/python3 >"$work/configure.log" ||
@@ -126,7 +132,7 @@ c++ -std=c++17 -O1 "$here/main.cc" $(pkg-config --cflags --libs shapespace) -o "
   fail "built by pkg-config tests/install/main.cc does not converge"
 
 cmake -S "$here/subproject" -B "$work/parent" -G Ninja -DCMAKE_BUILD_TYPE=Release \
-  "$unoptimised" -DCMAKE_UNITY_BUILD=ON \
+  "$unoptimised" "${units[@]}" \
   -DFETCHCONTENT_FULLY_DISCONNECTED=ON -DSHAPESPACE_SOURCE="$root" \
   >"$work/configure.log" ||
   fail "another project cannot take shapespace in by FetchContent"
