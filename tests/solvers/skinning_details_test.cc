@@ -98,6 +98,24 @@ TEST(SimplexMinimum, SharesBetweenEqualBones) {
   EXPECT_LT(ValueAt(singular, start), singular(3, 3));
 }
 
+// Of bones that together fit nearly exactly, what the value is lowered by is rounding errors.
+TEST(SimplexMinimum, EndsWhereNothingIsLeftToGain) {
+  for (unsigned seed = 1; seed <= 5000; ++seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> number(-1, 1);
+    Eigen::MatrixXd residuals(8, 16);
+    for (double& entry : residuals.reshaped()) entry = number(random);
+    for (int row = 0; row < residuals.rows(); ++row) residuals.row(row) *= std::pow(0.08, row);
+    const Eigen::MatrixXd gram = 9 * residuals.transpose() * residuals;
+    SimplexPoint point;
+    point.Append(static_cast<int>(seed % 16), 1);
+    Eigen::VectorXd gradient;
+    MinimiseOnSimplex(gram, &point, &gradient);
+    ExpectInSimplex(point);
+    EXPECT_LE(ValueAt(gram, point), gram(seed % 16, seed % 16));
+  }
+}
+
 TEST(SimplexMinimum, RemovesOneCoordinateAndKeepsTheSum) {
   SimplexPoint point;
   point.Append(4, 0.5);

@@ -150,8 +150,10 @@ void MinimiseOnSimplex(const Eigen::MatrixXd& gram, SimplexPoint* point,
     SimplexPoint larger = *point;
     larger.Append(best, 0);
     MinimiseOnSupport(gram, &larger);
-    // Each step lowers the value, so that no support comes twice.
-    if (!(ValueAt(gram, larger) < value)) return;
+    // Each step lowers the value, so that no support comes twice. `value` is another sum of the
+    // same terms, and differs by rounding errors, which are all that is left where bones fit
+    // exactly.
+    if (!(ValueAt(gram, larger) < ValueAt(gram, *point))) return;
     *point = larger;
   }
 }
