@@ -46,7 +46,7 @@ TEST_F(SelectionTest, VerticesAreCountedFrom1AndGivenFrom0EachOnceAndRising) {
 
 TEST_F(SelectionTest, BoundariesBelongToBallsBoxesAndHalfSpaces) {
   EXPECT_EQ(In(R"({"ball": {"centre": [0, 0, 0], "radius": 1}})"), (Vertices{0, 1, 2, 4}));
-  EXPECT_EQ(In(R"({"ball": {"centre": [1, 1, 1], "radius": 0}})"), (Vertices{7}));
+  EXPECT_EQ(In(R"({"ball": {"center": [1, 1, 1], "radius": 0}})"), (Vertices{7}));
   EXPECT_EQ(In(R"({"box": {"low": [0, 0, 0.5], "high": [0.5, 1, 1]}})"), (Vertices{4, 6}));
   EXPECT_EQ(In(R"({"halfspace": {"point": [9, 1, 9], "normal": [0, 3, 0]}})"),
             (Vertices{2, 3, 6, 7}));
@@ -115,11 +115,10 @@ TEST_F(SelectionTest, ErrorsNameTheField) {
       {R"({"any": {"vertices": [1]}})", "any: must be a list, [ ]; this is of type object"},
       {R"({"sphere": 1})",
        "unknown key 'sphere'; the keys here are vertices, ball, box, halfspace, group, any"},
-      {R"({"ball": {"center": [0, 0, 0], "radius": 1}})",
-       "ball: unknown key 'center'; the keys here are centre, radius"},
       {R"({"ball": {"centre": [0, 0, 0]}})", "ball.radius: is missing"},
+      {R"({"ball": {"centre": [0, 0, 0], "center": [0, 0, 0], "radius": 1}})", "ball.center: "},
       {R"({"ball": {"radius": 1}})", "ball.centre: is missing"},
-      {R"({"ball": 3})", "ball: must be an object, { }, with keys of centre, radius"},
+      {R"({"ball": 3})", "ball: must be an object, { }, with keys of centre, center, radius"},
       {R"({"ball": {"centre": [0, 0], "radius": 1}})", "ball.centre: must be three numbers"},
       {R"({"ball": {"centre": [0, 0, "0"], "radius": 1}})", "ball.centre: must be three numbers"},
       {R"({"ball": {"centre": [0, 1e61, 0], "radius": 1}})",

@@ -58,6 +58,21 @@ TEST_F(FilmTimesTest, ACycleEndsBeforeItsBeginning) {
   for (int i = 0; i < 25; ++i) EXPECT_NEAR(shown[i], 2 + 2.0 * i / 25, 1e-5) << i;
 }
 
+// Which of the two it is does not depend on rounding.
+TEST_F(FilmTimesTest, AMotionThatEndsWhereItBeginsIsPlayedAround) {
+  GltfOptions around, back;
+  around.playback = GltfPlayback::kLoop;
+  back.playback = GltfPlayback::kThereAndBack;
+  EXPECT_EQ(Shown({}), Shown(back));
+  path_.shapes[2] = path_.shapes[0] * (1 + 1e-9);
+  path_.motions[2] = path_.motions[0];
+  EXPECT_EQ(Shown({}), Shown(around));
+  EXPECT_NE(Shown(back), Shown(around));
+  // In another place it is no cycle.
+  path_.motions[2].translation.x() += 1;
+  EXPECT_EQ(Shown({}), Shown(back));
+}
+
 TEST_F(FilmTimesTest, OnceEndsWithTheLastShape) {
   GltfOptions options;
   options.playback = GltfPlayback::kOnce;

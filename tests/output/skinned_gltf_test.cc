@@ -1,5 +1,6 @@
 #include <shapespace/output/skinned_gltf.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -136,6 +137,20 @@ TEST(WriteSkinnedGltfTest, LeavesKeysOutWithinTheError) {
     last_off = off;
     last_keys = summary.keys;
   }
+}
+
+TEST(WriteSkinnedGltfTest, PlaysACycleAround) {
+  SkinnedPath path = SkinnedSphere(4, false);
+  const std::string back = GlbFile("skin_back"), around = GlbFile("skin_around");
+  WriteSkinnedGltf(back, path);
+  std::copy_n(path.motions.begin(), path.NumJoints(), path.motions.end() - path.NumJoints());
+  WriteSkinnedGltf(around, path);
+  // There and back both ends are held; around, the last shape is reached when all ends.
+  const Glb there(back), cycle(around);
+  const double end = SkinnedGltfOptions().gltf.duration;
+  EXPECT_LT(Farthest(SkinnedPlayer(there).At(end), path.Skinned(0)), kRounding);
+  EXPECT_LT(Farthest(SkinnedPlayer(cycle).At(end / 3), path.Skinned(1)), kRounding);
+  EXPECT_GT(Farthest(SkinnedPlayer(there).At(end / 3), path.Skinned(1)), kRounding);
 }
 
 TEST(WriteSkinnedGltfTest, HoldsAndReturnsAsOtherAnimations) {

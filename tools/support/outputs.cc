@@ -72,10 +72,6 @@ bool IsAnimation(PathOutput::Kind kind) {
   return kind == PathOutput::Kind::kGltf || kind == PathOutput::Kind::kUsd;
 }
 
-// Shapes whose vertices are nearer to each other than this, in diagonals of the bounding box, are
-// the same.
-constexpr double kSameShape = 1e-6;
-
 PathOutput OutputOf(const std::string& name, const std::string& flag = "output") {
   if (name == "-" && writes_last_shape_alone) return {name, PathOutput::Kind::kLastShape};
   try {
@@ -132,13 +128,6 @@ std::vector<std::string> LabelsFromFlag(const Path& path) {
   }
   for (size_t i = 0; i < given.size(); ++i) labels[path.poses[i]] = given[i];
   return labels;
-}
-
-// Whether the motion ends where it begins, but for rounding errors.
-bool IsCycle(const Path& path) {
-  const Shape first = path.Placed(0), last = path.Placed(path.NumShapes() - 1);
-  const double size = (first.rowwise().maxCoeff() - first.rowwise().minCoeff()).norm();
-  return path.NumShapes() > 2 && (last - first).cwiseAbs().maxCoeff() <= kSameShape * size;
 }
 
 PathOutputOptions OptionsFromFlags() {
@@ -229,7 +218,6 @@ void WriteOutputs(const std::vector<std::string>& outputs, const Path& path, con
   std::vector<std::string> paths_first = outputs;
   std::stable_partition(paths_first.begin(), paths_first.end(), IsPathFile);
   PathOutputOptions options = OptionsFromFlags();
-  if (!FLAGS_once && IsCycle(path)) options.gltf.playback = GltfPlayback::kLoop;
   options.reference = whole.shapes[0];
   options.film_strip.marks = marks;
   for (const std::string& output : paths_first) {

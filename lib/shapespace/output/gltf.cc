@@ -115,9 +115,10 @@ void GltfOptions::Validate() const {
   }
 }
 
-GltfSummary WriteGltf(const std::string& file, const Path& path, const GltfOptions& options) {
-  options.Validate();
+GltfSummary WriteGltf(const std::string& file, const Path& path, const GltfOptions& given) {
+  given.Validate();
   CheckPath(file, path);
+  GltfOptions options = given;
   const Connectivity& connectivity = *path.metric->connectivity;
   const int num_vertices = connectivity.NumVertices();
   internal::CheckCount("reference", options.reference.cols(), num_vertices, "vertices");
@@ -126,6 +127,8 @@ GltfSummary WriteGltf(const std::string& file, const Path& path, const GltfOptio
   std::vector<Shape> shapes;
   shapes.reserve(keys.size());
   for (const int key : keys) shapes.push_back(path.Placed(key));
+  options.playback =
+      internal::DecidePlayback(given.playback, path.NumShapes(), shapes.front(), shapes.back());
   const Eigen::Vector3d origin = internal::MiddleOf(shapes[0]);
 
   GltfSummary summary;

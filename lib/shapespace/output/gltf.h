@@ -12,19 +12,19 @@
 namespace shapespace {
 
 enum class GltfPlayback {
+  kAutomatic,  ///< `kLoop` if the motion ends where it begins, else `kThereAndBack`
   /// From the first shape to the last and back in `duration`, for players that repeat the
   /// animation. Each of the two is held for a tenth of the duration, the first shape half of it at
   /// the beginning and half at the end.
   kThereAndBack,
-  kLoop,  ///< From the first shape to the last, and again from the first, for motions that end
-          ///< where they begin
+  kLoop,  ///< From the first shape to the last, and again from the first
   kOnce,  ///< From the first shape to the last, which is held for the last tenth of the duration
 };
 
 struct GltfOptions {
   double duration = 4;  ///< seconds, holds included; 0.1 .. 3600
   double fps = 0;       ///< shapes per second instead of `duration`: .01 .. 1000; 0: off
-  GltfPlayback playback = GltfPlayback::kThereAndBack;
+  GltfPlayback playback = GltfPlayback::kAutomatic;
 
   /// Slow at both ends: the shape at share t of the path is shown after share tau of the time, with
   /// t = (1 - cos(pi tau)) / 2. Otherwise tau = t.

@@ -232,7 +232,10 @@ void AddSkinnedAnimation(const SkinnedPath& path, const Eigen::Vector3d& origin,
   const double first = path.parameters.front(), range = path.parameters.back() - first;
   std::vector<double> shares;
   for (const double parameter : path.parameters) shares.push_back((parameter - first) / range);
-  const auto moments = internal::PlaybackMoments(shares, path.NumShapes(), options.gltf);
+  GltfOptions gltf = options.gltf;
+  gltf.playback = internal::DecidePlayback(gltf.playback, path.NumShapes(), path.Skinned(0),
+                                           path.Skinned(path.NumShapes() - 1));
+  const auto moments = internal::PlaybackMoments(shares, path.NumShapes(), gltf);
   std::vector<double> points;
   for (const auto& [time, share] : moments) {
     // Those of the path's own shapes exactly.

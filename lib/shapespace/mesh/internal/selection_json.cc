@@ -56,8 +56,12 @@ Selection ParseNested(const Json& json, const std::string& field, int depth) {
   if (json.contains("ball")) {
     const Json& ball = json["ball"];
     const std::string own = Field(field, "ball");
-    CheckKeys(ball, own, {"centre", "radius"});
-    selection.ball = {vector(ball, own, "centre"),
+    CheckKeys(ball, own, {"centre", "center", "radius"});
+    const char* centre = ball.contains("center") ? "center" : "centre";
+    if (ball.contains("centre") && ball.contains("center")) {
+      FailIn(Field(own, "center"), "is another spelling of centre; leave one out");
+    }
+    selection.ball = {vector(ball, own, centre),
                       NumberFrom(Required(ball, own, "radius"), Field(own, "radius"))};
   }
   if (json.contains("box")) {

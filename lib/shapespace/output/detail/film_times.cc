@@ -30,9 +30,12 @@ double ShareAt(const std::vector<std::pair<double, double>>& moments, double tim
 
 }  // namespace
 
-FilmTimes ChooseFilmTimes(const Path& path, const GltfOptions& options) {
+FilmTimes ChooseFilmTimes(const Path& path, const GltfOptions& given) {
   const double first = path.parameters.front(), length = path.parameters.back() - first;
-  if (path.NumShapes() == 1) return {{first}, {0}, options.duration};
+  if (path.NumShapes() == 1) return {{first}, {0}, given.duration};
+  GltfOptions options = given;
+  options.playback = DecidePlayback(given.playback, path.NumShapes(), path.Placed(0),
+                                    path.Placed(path.NumShapes() - 1));
   std::vector<double> shares;
   for (const double parameter : path.parameters) shares.push_back((parameter - first) / length);
   const auto moments = PlaybackMoments(shares, path.NumShapes(), options);

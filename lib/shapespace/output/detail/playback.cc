@@ -14,7 +14,19 @@ constexpr double kRest = 0.1;
 // The speed of an eased motion is constant between this number of points of time.
 constexpr int kEasePoints = 64;
 
+// Shapes whose vertices are nearer to each other than this, in diagonals of the bounding box, are
+// the same.
+constexpr double kSameShape = 1e-6;
+
 }  // namespace
+
+GltfPlayback DecidePlayback(GltfPlayback playback, int shapes, const Shape& first,
+                            const Shape& last) {
+  if (playback != GltfPlayback::kAutomatic) return playback;
+  const double size = (first.rowwise().maxCoeff() - first.rowwise().minCoeff()).norm();
+  const bool is_cycle = shapes > 2 && (last - first).cwiseAbs().maxCoeff() <= kSameShape * size;
+  return is_cycle ? GltfPlayback::kLoop : GltfPlayback::kThereAndBack;
+}
 
 std::vector<std::pair<double, double>> PlaybackMoments(const std::vector<double>& parameters,
                                                        int shapes, const GltfOptions& options) {

@@ -11,7 +11,8 @@
 namespace shapespace::internal {
 
 inline Words<GltfPlayback> WordsOf(Of<GltfPlayback>) {
-  return {{"there_and_back", GltfPlayback::kThereAndBack},
+  return {{"auto", GltfPlayback::kAutomatic},
+          {"there_and_back", GltfPlayback::kThereAndBack},
           {"loop", GltfPlayback::kLoop},
           {"once", GltfPlayback::kOnce}};
 }
@@ -52,7 +53,9 @@ template <typename Visit>
 void ForOptions(Of<GltfOptions>, const Visit& visit) {
   visit("duration", &GltfOptions::duration, "Seconds, holds included.");
   visit("fps", &GltfOptions::fps, "Shapes of the path a second, instead of the duration; 0: off.");
-  visit("playback", &GltfOptions::playback, "There and back, around, or once.");
+  visit("playback", &GltfOptions::playback,
+        "There and back, around, or once; auto: around if the motion ends where it begins, else "
+        "there and back.");
   visit("ease", &GltfOptions::ease, "Slow at both ends.");
   visit("unit", &GltfOptions::unit, "Metres in one of the shapes' units; .001: millimetres.");
   visit("groups", &GltfOptions::groups, "Group of each vertex: a colour each; negative: none.");
