@@ -17,6 +17,7 @@ import os
 import pathlib
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 import sysconfig
@@ -70,6 +71,31 @@ def _run(command):
     subprocess.run(command, check=True)
 
 
+def _missing_packages():
+    """Of the lists of Debian packages those that are not installed; none where there is no dpkg."""
+    wanted = []
+    for name in ("build.txt", "python.txt"):
+        text = (PROJECT / "packaging/packages" / name).read_text(encoding="utf-8")
+        wanted += re.sub("#.*", "", text).split()
+    if not shutil.which("dpkg-query"):
+        return []
+    command = ["dpkg-query", "-W", "-f", "${Package} ${db:Status-Status}\n", *wanted]
+    found = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    there = {line.split()[0] for line in found.stdout.splitlines() if line.endswith(" installed")}
+    return [package for package in wanted if package not in there]
+
+
+def _advice():
+    """What to do where CMake does not find something."""
+    missing = _missing_packages()
+    if missing:
+        return "These packages are missing: apt-get install " + " ".join(missing)
+    return (
+        "On Debian, these lists name the packages, which ./dev packages installs: "
+        "packaging/packages/build.txt and python.txt"
+    )
+
+
 def _build_module(settings, target):
     """Builds the module into the folder `target`."""
     build = PROJECT / settings.get("build-dir", "build/python")
@@ -83,10 +109,7 @@ def _build_module(settings, target):
     try:
         _run(command)
     except subprocess.CalledProcessError:
-        sys.exit(
-            "shapespace: CMake did not find what it needs. On Debian, these lists name the packages, "
-            "which ./dev packages installs: packaging/packages/build.txt and python.txt"
-        )
+        sys.exit(f"shapespace: CMake did not find what it needs. {_advice()}")
     jobs = os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL", str(os.cpu_count()))
     _run(["cmake", "--build", build, "--target", "python_module", "--parallel", jobs])
     _run(["cmake", "--install", build, "--strip", "--component", "python", "--prefix", target])
