@@ -225,7 +225,7 @@ class ModuleRun:
             return
         model = self._module.ShapeModel(modes=task.modes, metric=metric)
         model.fit(poses, progress=self._hear)
-        self._note(model.summary)
+        self._note(model.summary_)
         rows = [[0.0] * k + [1.0] for k in range(task.modes)]
         self._motions.append(model.inverse_transform([[0.0], *rows], progress=self._hear))
 

@@ -1,7 +1,7 @@
 """Geodesics between poses of a mesh, and what follows from them.
 
 Vertices are arrays, n x 3, one vertex a row; faces are integers, m x 3, counted from 0. Begin with
-`read` and `interpolate`; the guide (docs/guide/python.md) shows the rest.
+`read` and `interpolate`; the guide (docs/guide/python.md and python-more.md) shows the rest.
 """
 
 from . import _core
@@ -45,6 +45,8 @@ from ._core import (
     ShapeError,
     ShapeModelSummary,
     SkinnedBody,
+    Skinning,
+    SkinningSummary,
     SolverError,
     SplineSummary,
     StandingSummary,
@@ -105,6 +107,7 @@ from ._functions import (
     set_threads,
     spline,
     shoot,
+    skin,
     skinned_body,
     stand,
     threads,

@@ -140,9 +140,11 @@ def _as(kind, value, name):
 
 def _count(value, name):
     try:
-        return operator.index(value)
+        whole = isinstance(value, (float, np.floating)) and value.is_integer()
+        return operator.index(int(value) if whole else value)
     except TypeError:
-        raise TypeError(f"{name}: must be int, not {value!r}") from None
+        shown = repr(value) if np.ndim(value) == 0 else type(value).__name__
+        raise TypeError(f"{name}: must be int, not {shown}") from None
 
 
 def _is_file(value):
@@ -154,30 +156,42 @@ def _is_pair(value):
     return isinstance(value, tuple) and len(value) == 2 and all(np.ndim(part) == 2 for part in value)
 
 
-def _of_pairs(pairs):
+def _has_mesh(value):
+    """Whether it is one or several shapes together with their faces."""
+    return isinstance(value, Poses) or _is_file(value) or _is_pair(value)
+
+
+def _of_pairs(pairs, name):
     """Poses of (vertices, faces) each, with the same faces."""
     first = np.asarray(pairs[0][1])
     for i, (_, faces) in enumerate(pairs):
         if not np.array_equal(np.asarray(faces), first):
-            raise ValueError(f"poses[{i}]: has other faces than poses[0]; `correspond` fits a mesh")
-    return Poses([vertices for vertices, _ in pairs], first)
+            raise ValueError(
+                f"{name}[{i}]: has other faces than {name}[0]; `correspond` fits a mesh"
+            )
+    return _core.make_poses([vertices for vertices, _ in pairs], first, name)
 
 
-def _poses(poses, faces):
+def _poses(poses, faces, more=(), name="poses"):
     """Poses of anything that has some: Poses, names of files, pairs of vertices and faces, or
-    vertices with `faces`."""
-    several = [poses] if _is_file(poses) else poses
+    vertices with `faces`; all in one sequence, or one by one, the faces last."""
+    if _is_file(faces) or _is_pair(faces):
+        poses, faces = [poses, faces, *more], None
+    elif more:
+        poses, faces = [poses, faces, *more[:-1]], more[-1]
+    alone = _is_file(poses) or (faces is None and _is_pair(poses))
+    several = [poses] if alone else poses
     read_poses = isinstance(several, (list, tuple)) and len(several) > 0
     if isinstance(poses, Poses):
         own = poses
     elif read_poses and all(map(_is_file, several)):
         own = read(*several)
     elif read_poses and all(map(_is_pair, several)):
-        own = _of_pairs(several)
+        own = _of_pairs(several, name)
     else:
-        return Poses(poses, faces)
+        return _core.make_poses(poses, faces, name)
     if faces is not None:
-        raise TypeError("faces: leave them out, since the poses have a mesh already")
+        raise TypeError(f"faces: leave them out, since {name} have a mesh already")
     return own
 
 
@@ -191,28 +205,47 @@ def _told(result):
 
 
 def _handles(handles):
+    if len(handles) == 0:
+        raise ValueError("handles: is empty; give at least one Handle")
     return [_as(Handle, handle, f"handles[{i}]") for i, handle in enumerate(handles)]
 
 
-def _mesh(vertices, faces, name="vertices"):
+def _mesh(vertices, faces, name="vertices", name_of_faces="faces"):
     """One shape with its mesh."""
-    if _is_file(vertices) or _is_pair(vertices):
-        vertices = _poses([vertices], None)
+    if faces is None and _is_pair(vertices):
+        return _core.make_mesh(*vertices, f"{name}[0]", f"{name}[1]")
+    if _is_file(vertices):
+        vertices = read(vertices)
     if isinstance(vertices, Poses):
         if faces is not None:
-            raise TypeError(f"faces: leave them out, since {name} has a mesh already")
+            raise TypeError(f"{name_of_faces}: leave them out, since {name} has a mesh already")
         if len(vertices) != 1:
             raise ValueError(f"{name}: must be one shape, and there are {len(vertices)} poses")
         return vertices
-    return Poses(_one(vertices, name), faces)
+    return _core.make_mesh(vertices, faces, name, name_of_faces)
 
 
-def _one(vertices, name):
-    """A list of one shape."""
-    array = np.asarray(vertices)
-    if array.ndim != 2:
-        raise ValueError(f"{name}: must be an n x 3 array of numbers, one vertex a row")
-    return [array]
+def _take_mesh(arguments, name):
+    """The mesh that the first of the arguments is, or the first two, vertices and faces, are."""
+    first = arguments.pop(0)
+    if _has_mesh(first) or not arguments:
+        return _mesh(first, None, name, f"the faces of {name}")
+    return _mesh(first, arguments.pop(0), name, f"the faces of {name}")
+
+
+def _without_faces(faces, last):
+    """Faces, which were left out if the argument after them is missing, and that argument."""
+    return (None, faces) if last is None else (faces, last)
+
+
+def _pose_of(shape, mesh, name):
+    """The vertices of a shape of a mesh; if the shape brings faces, they must be the mesh's."""
+    if not _has_mesh(shape):
+        return shape
+    own = _mesh(shape, None, name)
+    if len(own[0]) == len(mesh[0]) and not np.array_equal(own.faces, mesh.faces):
+        raise ValueError(f"{name}: has other faces than the mesh; `correspond` fits a mesh")
+    return own[0]
 
 
 def read(
@@ -280,17 +313,17 @@ def read(
     )
 
 
-def write(file, vertices, faces):
-    """Write a mesh; the file appears whole or not at all.
+def write(file, vertices, faces=None):
+    """Write a mesh; the file appears whole or not at all. A path has its own `write`.
 
     Parameters
     ----------
     file : str or path-like
         An .obj, .ply, .off or .stl file. Except for .stl, which has single precision, coordinates
         read back as they were, to the last bit.
-    vertices : array_like
+    vertices : array_like, Poses of one shape, name of a file, or (vertices, faces)
         n x 3.
-    faces : array_like, or an object with a mesh
+    faces : array_like, or an object with a mesh, optional
         As for `Poses`. Of poses that were read, polygons, materials and textures are written too.
 
     Returns
@@ -298,17 +331,24 @@ def write(file, vertices, faces):
     list of str
         What of the mesh's appearance the file cannot hold: mostly nothing.
     """
+    if isinstance(vertices, Path):
+        raise TypeError("vertices: a Path has many shapes; its own `write` takes the file's name")
+    if faces is None and _is_pair(vertices):
+        vertices, faces = vertices
+    elif faces is None and _has_mesh(vertices):
+        faces = _mesh(vertices, None)
+        vertices = faces[0]
     return _core.write(os.fspath(file), vertices, faces)
 
 
-def check(vertices, faces):
+def check(vertices, faces=None):
     """Find what is worth saying about a mesh.
 
     Parameters
     ----------
-    vertices : array_like
+    vertices : array_like, or (vertices, faces)
         n x 3.
-    faces : array_like
+    faces : array_like, optional
         m x 3 integers counted from 0, or a list of polygons.
 
     Returns
@@ -317,6 +357,8 @@ def check(vertices, faces):
         In order of falling severity: 'fatal', 'non-manifold', 'warning', 'note'. Messages count
         vertices and faces from 1, as files do.
     """
+    if faces is None and _is_pair(vertices):
+        vertices, faces = vertices
     return [Finding(*finding) for finding in _core.check(vertices, faces)]
 
 
@@ -357,16 +399,16 @@ def skinned_body(name, triangles=0, proportions=""):
 
 
 @takes("FilmStripOptions")
-def film_strip(shapes, faces=None, **options):
+def film_strip(shapes, faces=None, *more, **options):
     """Draw shapes side by side.
 
     Parameters
     ----------
-    shapes : Path, Poses, or sequence of array_like
+    shapes : Path, or as the poses of `interpolate`
         Of a path, given shapes are blue, those between them green, extrapolated ones purple, and
         each has its number and time below it.
-    faces : array_like, optional
-        As for `Poses`.
+    faces, *more
+        As for `interpolate`.
     {options}
 
     Returns
@@ -377,11 +419,11 @@ def film_strip(shapes, faces=None, **options):
         if faces is not None:
             raise TypeError("faces: leave them out, since the path has a mesh already")
         return shapes._film_strip(options)
-    return _core.film_strip(_poses(shapes, faces), options)
+    return _core.film_strip(_poses(shapes, faces, more, "shapes"), options)
 
 
 @takes("GeodesicOptions")
-def interpolate(poses, faces=None, *, progress=None, **options):
+def interpolate(poses, faces=None, *more, progress=None, **options):
     """Find the geodesic through two or more poses.
 
     Parameters
@@ -390,9 +432,12 @@ def interpolate(poses, faces=None, *, progress=None, **options):
         Vertices of each pose, n x 3, in any unit. Poses are aligned rigidly first.
     faces : array_like, optional
         Triangles that all poses share, m x 3, or anything else that `Poses` takes.
+    *more
+        Poses may be given one by one, and their faces last: ``interpolate(V0, V1, F)``.
     progress : callable or bool, optional
         Called as progress(stage, done, total, share); `share` of the work is done, or None if that
-        is not known. If it returns False, the best path so far is returned. True shows a bar.
+        is not known. If it returns False, the best path so far is returned; before there is one,
+        `Cancelled` is raised. True shows a bar.
     {options}
 
     Returns
@@ -406,27 +451,111 @@ def interpolate(poses, faces=None, *, progress=None, **options):
         The arguments cannot serve.
     SolverError
         The memory limit, or poses that turn too far for a rigid metric.
+    Cancelled
+        `progress` returned False before there was any path.
 
     Notes
     -----
     A frozen `Metric` as `metric` makes several paths comparable. See Kilian, Mitra and Pottmann,
     "Geometric Modeling in Shape Space" (SIGGRAPH 2007), section 3.
     """
-    poses = _poses(poses, faces)
+    poses = _poses(poses, faces, more)
     with told(progress) as report:
         return _told(GeodesicResult(*_core.interpolate(poses, options, report)))
 
 
+def _path(path, faces, geodesic, report, name):
+    """A path as it is, or the geodesic through poses."""
+    if not isinstance(path, Path):
+        poses = _poses(path, faces, name=name)
+        return _told(GeodesicResult(*_core.interpolate(poses, dict(geodesic), report))).path
+    if faces is not None:
+        raise TypeError(f"faces: leave them out, since {name} has a mesh already")
+    return path
+
+
+@takes("SkinningOptions")
+def skin(shapes, faces=None, *more, bones=20, progress=None, **options):
+    """Find bones and weights of vertices that reproduce a motion, for engines and animators.
+
+    Parameters
+    ----------
+    shapes : Path, or as the poses of `interpolate`
+        Of the motion, two or more: they are taken as they are, and not interpolated. Those that
+        are no path are evenly spaced in time.
+    faces, *more
+        As for `interpolate`.
+    bones : int or 'auto', optional
+        How many, 1 to 500. 'auto': as few as are found with which the error is at most `error`.
+        Default: 20.
+    progress : callable or bool, optional
+        As for `interpolate`; the best bones so far are returned.
+    {options}
+
+    Returns
+    -------
+    Skinning
+        Joints, weights, transforms and errors as arrays; its `write` makes a .glb.
+
+    Raises
+    ------
+    MeshError, InvalidOptions
+        The arguments cannot serve.
+    Cancelled
+        `progress` returned False before there were any bones.
+
+    Notes
+    -----
+    After B. H. Le and Z. Deng, "Smooth Skinning Decomposition with Rigid Bones" (SIGGRAPH Asia
+    2012).
+    """
+    if bones != "auto":
+        for name in {"error", "most_bones"} & set(options):
+            raise TypeError(f"{name}: goes with bones='auto'")
+        if _count(bones, "bones") < 1:
+            raise ValueError(f"bones: must be 1 or more, or 'auto', not {bones!r}")
+    options["bones"] = 0 if bones == "auto" else bones
+    if not isinstance(shapes, Path):
+        poses = _poses(shapes, faces, more, "shapes")
+        shapes = Path(poses, Metric(poses[:1], poses))
+    elif faces is not None:
+        raise TypeError("faces: leave them out, since the path has a mesh already")
+    with told(progress) as report:
+        result = _told(_core.skin(shapes, options, report))
+    for warning in result.summary.warnings:
+        warn(warning)
+    return result
+
+
+@takes("SkinningOptions")
+def _skin_of_path(self, bones=20, *, progress=None, **options):
+    """Find bones and weights that reproduce the motion: `skin`.
+
+    Parameters
+    ----------
+    bones : int or 'auto', optional
+    progress : callable or bool, optional
+    {options}
+
+    Returns
+    -------
+    Skinning
+    """
+    return skin(self, bones=bones, progress=progress, **options)
+
+
+_skin_of_path.__name__ = "skin"
+Path.skin = _skin_of_path
+
+
 @takes("SplineOptions")
-def spline(poses, faces=None, *, progress=None, **options):
+def spline(poses, faces=None, *more, progress=None, **options):
     """Find a smooth motion through several poses.
 
     Parameters
     ----------
-    poses : Poses, or sequence of array_like
-        Vertices of each pose, n x 3, in any unit; three or more, since two give the geodesic.
-    faces : array_like, optional
-        Triangles that all poses share, m x 3, or anything else that `Poses` takes.
+    poses, faces, *more
+        As for `interpolate`; three poses or more, since two give the geodesic.
     progress : callable or bool, optional
         As for `interpolate`.
     {options}
@@ -448,21 +577,19 @@ def spline(poses, faces=None, *, progress=None, **options):
     The geodesics between neighbouring poses are corrected such that the velocity does not jump at
     the poses: rotations and stretches of triangles follow cubic splines.
     """
-    poses = _poses(poses, faces)
+    poses = _poses(poses, faces, more)
     with told(progress) as report:
         return _told(SplineResult(*_core.spline(poses, options, report)))
 
 
 @takes("AverageOptions")
-def average(poses, faces=None, *, progress=None, **options):
+def average(poses, faces=None, *more, progress=None, **options):
     """Find the mean of poses: the shape whose strains and angles are nearest to their means.
 
     Parameters
     ----------
-    poses : Poses, or sequence of array_like
-        Vertices of each pose, n x 3, in any unit.
-    faces : array_like, optional
-        Triangles that all poses share, m x 3, or anything else that `Poses` takes.
+    poses, faces, *more
+        As for `interpolate`.
     progress : callable or bool, optional
         As for `interpolate`.
     {options}
@@ -480,7 +607,7 @@ def average(poses, faces=None, *, progress=None, **options):
     SolverError
         The memory limit.
     """
-    poses = _poses(poses, faces)
+    poses = _poses(poses, faces, more)
     with told(progress) as report:
         return _told(AverageResult(*_core.average(poses, options, report)))
 
@@ -519,15 +646,22 @@ def stand(path, parts, *, progress=None):
 
 
 @takes("ExponentialOptions")
-def extrapolate(path, steps, *, progress=None, **options):
+def extrapolate(path, faces=None, steps=None, *, geodesic=None, progress=None, **options):
     """Go on along a path, beyond its last shape.
 
     Parameters
     ----------
-    path : Path
-        Of two or more shapes. Paths under the strain metric can always go on.
+    path : Path, or poses as for `interpolate`
+        Of two or more shapes. Paths under the strain metric can always go on. Poses are
+        interpolated first.
+    faces : array_like, optional
+        Of poses that are arrays.
     steps : int
-        Shapes to add, at the distance in time of the last two.
+        Shapes to add, at the distance in time of the last two: ``extrapolate(path, 3)``,
+        ``extrapolate([V0, V1], F, 3)``.
+    geodesic : GeodesicOptions, optional
+        How poses are interpolated, by default to a tolerance of 1e-6, because errors grow from
+        step to step.
     progress : callable or bool, optional
         As for `interpolate`.
     {options}
@@ -536,8 +670,10 @@ def extrapolate(path, steps, *, progress=None, **options):
     -------
     ExponentialResult
     """
+    faces, steps = _without_faces(faces, steps)
+    steps = _count(steps, "steps")
     with told(progress) as report:
-        path, steps = _as(Path, path, "path"), _count(steps, "steps")
+        path = _path(path, faces, {"tolerance": 1e-6, **(geodesic or {})}, report, "path")
         return _told(ExponentialResult(*_core.extrapolate(path, steps, options, report)))
 
 
@@ -663,15 +799,19 @@ def correct_path(path, *, progress=None, **options):
 
 
 @takes("TransferOptions")
-def transfer(source, target, *, progress=None, **options):
+def transfer(source, target, faces=None, *, geodesic=None, progress=None, **options):
     """Move a body as another one moves.
 
     Parameters
     ----------
-    source : Path
-        How the other body moves.
-    target : array_like
+    source : Path, or poses as for `interpolate`
+        How the other body moves. Poses are interpolated first.
+    target : array_like, name of a file, or (vertices, faces)
         The body in the source's first pose, n x 3, of the same connectivity.
+    faces : array_like, optional
+        Of poses that are arrays.
+    geodesic : GeodesicOptions, optional
+        How poses are interpolated.
     progress : callable or bool, optional
         As for `interpolate`.
     {options}
@@ -682,8 +822,9 @@ def transfer(source, target, *, progress=None, **options):
         The target's path, hybrids (None unless asked for), and a summary.
     """
     with told(progress) as report:
-        moved = _core.transfer(_as(Path, source, "source"), target, options, report)
-        return _told(TransferResult(*moved))
+        source = _path(source, faces, geodesic or {}, report, "source")
+        shape = _pose_of(target, source, "target")
+        return _told(TransferResult(*_core.transfer(source, shape, options, report)))
 
 
 @takes("TransferOptions")
@@ -692,12 +833,12 @@ def transfer_poses(poses, target, faces=None, *, geodesic=None, progress=None, *
 
     Parameters
     ----------
-    poses : Poses, or sequence of array_like
+    poses : as for `interpolate`
         The other body's; the first is the pose that the target is in.
-    target : array_like
+    target : array_like, name of a file, or (vertices, faces)
         n x 3, of the same connectivity.
     faces : array_like, optional
-        As for `Poses`.
+        Of both, where the poses are arrays.
     geodesic : GeodesicOptions, optional
         Of the ladder, on which each pose is reached by a geodesic.
     progress : callable or bool, optional
@@ -712,9 +853,9 @@ def transfer_poses(poses, target, faces=None, *, geodesic=None, progress=None, *
     """
     poses = _poses(poses, faces)
     with told(progress) as report:
-        return PoseTransferResult(
-            *_core.transfer_poses(poses, target, geodesic, options, report)
-        )
+        shape = _pose_of(target, poses, "target")
+        moved = _core.transfer_poses(poses, shape, geodesic, options, report)
+        return PoseTransferResult(*moved)
 
 
 def read_handles(file, vertices, faces=None):
@@ -723,10 +864,8 @@ def read_handles(file, vertices, faces=None):
     Parameters
     ----------
     file : str or path-like
-    vertices : Poses or array_like
-        The mesh, in which the file selects vertices.
-    faces : array_like, optional
-        As for `Poses`.
+    vertices, faces
+        The mesh, in which the file selects vertices, as for `deform`.
 
     Returns
     -------
@@ -736,17 +875,17 @@ def read_handles(file, vertices, faces=None):
 
 
 @takes("DeformationOptions")
-def deform(vertices, faces, handles, *, progress=None, **options):
+def deform(vertices, faces=None, handles=None, *, progress=None, **options):
     """Deform a mesh by handles.
 
     Parameters
     ----------
-    vertices : array_like
+    vertices : array_like, Poses of one shape, name of a file, or (vertices, faces)
         The mesh at rest, n x 3.
     faces : array_like, or an object with a mesh
-        As for `Poses`.
+        As for `Poses`. Left out where the mesh has faces: ``deform("a.obj", handles)``.
     handles : sequence of Handle
-        What is held, and where it is to be.
+        What is held, and where it is to be; `read_handles` reads them.
     progress : callable or bool, optional
         As for `interpolate`.
     {options}
@@ -756,9 +895,10 @@ def deform(vertices, faces, handles, *, progress=None, **options):
     DeformationResult
         A path from the mesh to the deformed one, which is `path[-1]`, and a summary.
     """
-    mesh = _mesh(vertices, faces)
+    faces, handles = _without_faces(faces, handles)
+    mesh, handles = _mesh(vertices, faces), _handles(handles)
     with told(progress) as report:
-        return _told(DeformationResult(*_core.deform(mesh, _handles(handles), options, report)))
+        return _told(DeformationResult(*_core.deform(mesh, handles, options, report)))
 
 
 class Interpolator:
@@ -819,15 +959,13 @@ class Deformer:
 
     Parameters
     ----------
-    vertices : array_like
-        The mesh at rest, n x 3.
-    faces : array_like, or an object with a mesh
-        As for `Poses`.
+    vertices, faces
+        The mesh at rest, as for `deform`.
     **options
         As for `deform`.
     """
 
-    def __init__(self, vertices, faces, **options):
+    def __init__(self, vertices, faces=None, **options):
         self._mesh, self._options = _mesh(vertices, faces), options
         self._solver = _core._Deformer(self._mesh, options)
 
@@ -860,10 +998,10 @@ def repair(reference, distorted, faces=None, *, vertices=None, progress=None, **
 
     Parameters
     ----------
-    reference, distorted : array_like
+    reference, distorted : array_like, Poses of one shape, name of a file, or (vertices, faces)
         n x 3.
-    faces : array_like, or an object with a mesh
-        As for `Poses`.
+    faces : array_like, or an object with a mesh, optional
+        As for `Poses`, where the reference is an array.
     vertices : array_like, optional
         Whose places in the distorted shape are to be kept as far as that can be: numbers of
         vertices, or a truth value for each. Without, all.
@@ -877,6 +1015,7 @@ def repair(reference, distorted, faces=None, *, vertices=None, progress=None, **
         A path from the reference to the repaired shape, which is `path[-1]`, and a summary.
     """
     mesh = _mesh(reference, faces, "reference")
+    distorted = _pose_of(distorted, mesh, "distorted")
     with told(progress) as report:
         return _told(RepairResult(*_core.repair(mesh, distorted, vertices, options, report)))
 
@@ -957,17 +1096,16 @@ def _pull(points, mesh, values):
 
 
 @takes("CorrespondenceOptions")
-def correspond(
-    template, template_faces, target, target_faces, markers=None, *, progress=None, **options
-):
+def correspond(template, target, *more, markers=None, progress=None, **options):
     """Fit a template onto another body of any connectivity, and map the two onto each other.
 
     Parameters
     ----------
-    template, target : array_like
-        Vertices, n x 3 each.
-    template_faces, target_faces : array_like, or objects with a mesh
-        As for `Poses`.
+    template, target : Poses of one shape, name of a file, or (vertices, faces)
+        The two meshes. Vertices and faces may also be given one by one:
+        ``correspond(V, F, other_V, other_F)``.
+    *more
+        What of that follows, and `markers`: ``correspond("a.obj", "b.obj", markers)``.
     markers : array_like, optional
         k x 2: a vertex of the template and one of the target that belong together, from 0. With
         fewer than three, further ones are found from the shapes of both bodies.
@@ -979,8 +1117,14 @@ def correspond(
     -------
     Correspondence
     """
-    source = _mesh(template, template_faces, "template")
-    goal = _mesh(target, target_faces, "target")
+    arguments = [template, target, *more]
+    source = _take_mesh(arguments, "template")
+    if not arguments:
+        raise TypeError("target: is missing")
+    goal = _take_mesh(arguments, "target")
+    if len(arguments) > (1 if markers is None else 0):
+        raise TypeError("correspond: takes a template, a target and markers, and no more")
+    markers = arguments[0] if arguments else markers
     with told(progress) as report:
         result = _told(_core.correspond(source, goal, markers, options, report))
     shown = result.markers if result.summary.candidates else markers
@@ -993,14 +1137,14 @@ def read_surface_map(file, template, target):
     Parameters
     ----------
     file : str or path-like
-    template, target : Poses
+    template, target : as for `correspond`
         The two meshes.
 
     Returns
     -------
     SurfaceMap
     """
-    return SurfaceMap._read(file, _as(Poses, template, "template"), _as(Poses, target, "target"))
+    return SurfaceMap._read(file, _mesh(template, None, "template"), _mesh(target, None, "target"))
 
 
 def read_markers(file, template, target):
@@ -1011,7 +1155,7 @@ def read_markers(file, template, target):
     file : str or path-like, or two of them
         Pairs of vertices; or two files of landmarks, the template's and the target's: .fcsv or
         .mrk.json of 3D Slicer, or text with x y z in each line.
-    template, target : Poses
+    template, target : as for `correspond`
         The two meshes.
 
     Returns
@@ -1019,6 +1163,7 @@ def read_markers(file, template, target):
     ndarray
         k x 2, from 0.
     """
+    template, target = _mesh(template, None, "template"), _mesh(target, None, "target")
     if isinstance(file, (tuple, list)):
         if len(file) != 2:
             raise ValueError("file: name one file of pairs of vertices, or two files of landmarks")
@@ -1044,15 +1189,13 @@ def read_vertex_field(source):
     return _core.read_vertex_field(os.fspath(source))
 
 
-def select(vertices, faces, selection):
+def select(vertices, faces=None, selection=None):
     """Find the vertices that a selection names, as the files of handles have it.
 
     Parameters
     ----------
-    vertices : Poses or array_like
-        The mesh, n x 3.
-    faces : array_like, or an object with a mesh
-        As for `Poses`.
+    vertices, faces
+        The mesh, n x 3, as for `deform`: ``select("a.obj", selection)``.
     selection : dict or str
         Such as ``{"ball": {"centre": [0, 0, 0], "radius": 2}}``, or that as JSON; 'vertices' in it
         are counted from 1 (docs/file-formats.md).
@@ -1062,19 +1205,20 @@ def select(vertices, faces, selection):
     ndarray
         Numbers of vertices, counted from 0.
     """
+    faces, selection = _without_faces(faces, selection)
     text = selection if isinstance(selection, str) else json.dumps(selection)
     return _core.select(_mesh(vertices, faces), text)
 
 
-def intersections(shapes, faces=None):
+def intersections(shapes, faces=None, *more):
     """Count the pairs of triangles of a body that pass through each other.
 
     Parameters
     ----------
-    shapes : Poses, or sequence of array_like
-        n x 3 each.
-    faces : array_like, optional
-        As for `Poses`.
+    shapes : array_like, or as the poses of `interpolate`
+        n x 3 each; one is enough.
+    faces, *more
+        As for `interpolate`.
 
     Returns
     -------
@@ -1082,7 +1226,9 @@ def intersections(shapes, faces=None):
         Of each shape the number of pairs that have no vertex in common; triangles that only touch
         do not count.
     """
-    return _core.intersections(_poses(shapes, faces))
+    if isinstance(shapes, np.ndarray) and shapes.ndim == 2 and not more:
+        shapes = [shapes]
+    return _core.intersections(_poses(shapes, faces, more, "shapes"))
 
 
 class EmbeddingResult(typing.NamedTuple):
@@ -1177,15 +1323,13 @@ def read_curve(file, space):
 
 
 @takes("ExploreOptions")
-def distance_matrix(poses, faces=None, *, progress=None, **options):
+def distance_matrix(poses, faces=None, *more, progress=None, **options):
     """Measure the lengths of the geodesics between every two poses.
 
     Parameters
     ----------
-    poses : Poses, or sequence of array_like
-        Vertices of each pose, n x 3.
-    faces : array_like, optional
-        As for `Poses`.
+    poses, faces, *more
+        As for `interpolate`.
     progress : callable or bool, optional
         As for `interpolate`.
     {options}
@@ -1195,21 +1339,19 @@ def distance_matrix(poses, faces=None, *, progress=None, **options):
     ndarray
         k x k, symmetric: pure numbers.
     """
-    poses = _poses(poses, faces)
+    poses = _poses(poses, faces, more)
     with told(progress) as report:
         return _core.distance_matrix(poses, options, report)
 
 
 @takes("ExploreOptions")
-def explore(poses, faces=None, *, names=(), progress=None, **options):
+def explore(poses, faces=None, *more, names=(), progress=None, **options):
     """Spread poses out on a plane, with the shapes between them.
 
     Parameters
     ----------
-    poses : Poses, or sequence of array_like
-        Vertices of each pose, n x 3.
-    faces : array_like, optional
-        As for `Poses`.
+    poses, faces, *more
+        As for `interpolate`.
     names : sequence of str, optional
         Of the poses. Without, those of `Poses.names`, without folders.
     progress : callable or bool, optional
@@ -1221,7 +1363,7 @@ def explore(poses, faces=None, *, names=(), progress=None, **options):
     ExploreResult
         The `Space` and a summary.
     """
-    poses = _poses(poses, faces)
+    poses = _poses(poses, faces, more)
     with told(progress) as report:
         return ExploreResult(*_core.explore(poses, list(names), options, report))
 

@@ -1,11 +1,12 @@
 """A statistical model of the shapes of a body."""
 
+import inspect
 import os
 
 import numpy as np
 
 from . import _core
-from ._functions import _poses
+from ._functions import _has_mesh, _poses
 from ._options import takes
 from ._progress import told
 from ._warn import warn
@@ -19,58 +20,73 @@ class ShapeModel:
     """The mean of poses and their principal modes; coordinates are in standard deviations.
 
     Used as the transformers of scikit-learn are: `fit`, `transform`, `inverse_transform`, in
-    pipelines, and with `sklearn.base.clone`.
+    pipelines, and with `sklearn.base.clone`. Parameters are attributes too, for the next `fit`.
 
     Parameters
     ----------
+    faces : array_like, or an object with a mesh, optional
+        Of poses that are arrays, where `fit` is not given them, as in pipelines.
     {options}
 
     Attributes
     ----------
-    mean : ndarray
+    mean_ : ndarray
         The mean of the poses, n x 3.
-    modes : ndarray
+    modes_ : ndarray
         Displacements of the mean by one standard deviation of each mode, k x n x 3.
     explained_variance_ratio_ : ndarray
         The modes' shares of the variance, k.
-    coordinates : ndarray
+    coordinates_ : ndarray
         Of the poses, a row for each.
-    names : list of str
+    names_ : list of str
         Of the poses, if they were files; otherwise their numbers.
-    faces : ndarray
+    faces_ : ndarray
         Triangles, m x 3.
-    summary : ShapeModelSummary
+    summary_ : ShapeModelSummary
         How good the mean is, and what the modes are; None in a model that was read.
     """
 
-    def __init__(self, **options):
-        self._options = options
-        self._summary = None
-        self._model = None
+    summary_ = None
+    _model = None
+
+    def __init__(self, *, faces=None, **options):
+        given = inspect.signature(type(self)).bind(faces=faces, **options)
+        given.apply_defaults()
+        vars(self).update(given.arguments)
 
     def get_params(self, deep=True):
-        """The options that were given, as a dict."""
-        return dict(self._options)
+        """All parameters, as a dict."""
+        return {name: getattr(self, name) for name in inspect.signature(type(self)).parameters}
 
     def set_params(self, **options):
-        """Change options, for the next `fit`. Returns the model."""
-        self._options = {**self._options, **options}
+        """Change parameters, for the next `fit`. Returns the model."""
+        for name in options:
+            if name not in self.get_params():
+                raise ValueError(f"'{name}' is no parameter of ShapeModel")
+        vars(self).update(options)
         return self
 
     def fit(self, poses, faces=None, *, progress=None):
         """Find the mean and the modes of poses.
 
-        `poses` are Poses or arrays of vertices, n x 3 each, with `faces`. Returns the model.
+        `poses` and `faces` are as for `interpolate`; faces are those of the model if they are left
+        out. Returns the model.
         """
+        options = self.get_params()
+        own_faces = options.pop("faces")
+        first = poses[0] if isinstance(poses, (list, tuple)) and poses else poses
+        if faces is None and not _has_mesh(poses) and not _has_mesh(first):
+            faces = own_faces
         poses = _poses(poses, faces)
         names = [os.path.splitext(os.path.basename(name))[0] for name in poses.names]
         if len(set(names)) < len(names) or not all(names):
             names = []
         with told(progress) as report:
-            self._model, self._summary = _core.make_shape_model(
-                poses, names, self._options, report
-            )
+            self._model, self.summary_ = _core.make_shape_model(poses, names, options, report)
         return self
+
+    def __sklearn_is_fitted__(self):
+        return self._model is not None
 
     def transform(self, shapes, *, fit=False, progress=None):
         """Coordinates of shapes, a row for each; with `fit`, of the shapes of the model that are
@@ -96,7 +112,7 @@ class ShapeModel:
 
     def fit_transform(self, poses, faces=None, *, progress=None):
         """`fit`, and the coordinates of the poses."""
-        return self.fit(poses, faces, progress=progress).coordinates
+        return self.fit(poses, faces, progress=progress).coordinates_
 
     def preview(self, coordinates):
         """A shape that is near to the one at coordinates, n x 3, in milliseconds."""
@@ -119,15 +135,11 @@ class ShapeModel:
         return model
 
     @property
-    def summary(self):
-        return self._summary
-
-    @property
-    def mean(self):
+    def mean_(self):
         return self._fitted().mean
 
     @property
-    def modes(self):
+    def modes_(self):
         return self._fitted().modes
 
     @property
@@ -135,15 +147,15 @@ class ShapeModel:
         return self._fitted().variance_ratio
 
     @property
-    def coordinates(self):
+    def coordinates_(self):
         return self._fitted().coordinates
 
     @property
-    def names(self):
+    def names_(self):
         return self._fitted().names
 
     @property
-    def faces(self):
+    def faces_(self):
         return self._fitted().faces
 
     def _fitted(self):
@@ -154,7 +166,7 @@ class ShapeModel:
     def __repr__(self):
         if self._model is None:
             return "<shapespace.ShapeModel, not fitted>"
-        poses, modes = self.coordinates.shape
+        poses, modes = self.coordinates_.shape
         return f"<shapespace.ShapeModel: {poses} poses, {modes} modes>"
 
 

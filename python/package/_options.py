@@ -31,9 +31,9 @@ def _say(row):
     return text + textwrap.indent(textwrap.fill(f"{meaning} Default: {shown}.", 92), "    ")
 
 
-def describe(table):
-    """The options of a table in numpydoc's form."""
-    return "\n".join(_say(row) for row in _core.options(table))
+def describe(table, without=()):
+    """The options of a table in numpydoc's form, but for some names."""
+    return "\n".join(_say(row) for row in _core.options(table) if row[0] not in without)
 
 
 def takes(table):
@@ -49,7 +49,10 @@ def takes(table):
             for parameter in signature.parameters.values()
             if parameter.kind is not inspect.Parameter.VAR_KEYWORD
         ]
+        own = set(signature.parameters)  # which the docstring describes itself
         for name, _kind, default, _meaning in _core.options(table):
+            if name in own:
+                continue
             parameters.append(
                 inspect.Parameter(
                     name,
@@ -59,7 +62,7 @@ def takes(table):
             )
         function.__signature__ = signature.replace(parameters=parameters)
         function.__doc__ = inspect.cleandoc(function.__doc__).replace(
-            "{options}", describe(table)
+            "{options}", describe(table, own)
         )
         return function
 

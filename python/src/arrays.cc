@@ -38,7 +38,9 @@ py::array ToNumbers(py::handle value, const std::string& name, const std::string
 }
 
 constexpr char kReal[] = "fiu";
-constexpr char kInteger[] = "iu";
+
+// Up to here every whole number is one of double precision.
+constexpr double kMostInFloat = 9007199254740992;
 
 // Rows of three finite numbers.
 void Fill(const double* data, const std::string& name, Shape* shape) {
@@ -67,11 +69,26 @@ void CheckRows(py::ssize_t rows, const std::string& name, int num_vertices) {
       "counted from 0");
 }
 
+// Whole numbers, also such as are stored as floats.
 std::vector<std::int64_t> ToIndices(py::handle value, const std::string& name,
                                     const std::string& what) {
-  const py::array numbers = ToNumbers(value, name, kInteger, what);
-  const auto array = Contiguous<std::int64_t>(numbers);
-  return {array.data(), array.data() + array.size()};
+  const py::array numbers = ToNumbers(value, name, kReal, what);
+  if (numbers.dtype().kind() != 'f') {
+    const auto array = Contiguous<std::int64_t>(numbers);
+    return {array.data(), array.data() + array.size()};
+  }
+  const auto array = Contiguous<double>(numbers);
+  std::vector<std::int64_t> indices;
+  for (py::ssize_t i = 0; i < array.size(); ++i) {
+    const double number = array.data()[i];
+    if (number != std::trunc(number) || std::abs(number) > kMostInFloat) {
+      std::ostringstream message;
+      message << name << ": must be " << what << "; " << number << " is no such number";
+      throw py::type_error(message.str());
+    }
+    indices.push_back(static_cast<std::int64_t>(number));
+  }
+  return indices;
 }
 
 }  // namespace
@@ -105,7 +122,7 @@ std::vector<Shape> ToShapes(py::handle value, const std::string& name, int num_v
     const auto array = py::reinterpret_borrow<py::array>(value);
     if (array.ndim() == 2) {
       throw py::value_error(name + ": must be several n x 3 arrays, not one of " + ShapeOf(array) +
-                            "; put it in a list");
+                            "; put it in a list, or give each array by itself and the faces last");
     }
   }
   if (!py::isinstance<py::sequence>(value) && !py::isinstance<py::array>(value)) {
@@ -113,7 +130,7 @@ std::vector<Shape> ToShapes(py::handle value, const std::string& name, int num_v
                          py::cast<std::string>(py::str(py::type::handle_of(value))));
   }
   for (py::handle one : value) {
-    const std::string number = name + "[" + std::to_string(shapes.size()) + "]";
+    const std::string number = NumberedName(name, shapes.size());
     shapes.push_back(shapes.empty() || num_vertices >= 0
                          ? ToShape(one, number, num_vertices)
                          : ToPose(one, number, static_cast<int>(shapes[0].cols())));
@@ -122,14 +139,15 @@ std::vector<Shape> ToShapes(py::handle value, const std::string& name, int num_v
   return shapes;
 }
 
-void SetPolygons(py::handle faces, Soup* soup) {
+void SetPolygons(py::handle faces, Soup* soup, const std::string& name) {
   soup->polygon_begin = {0};
   soup->corners.clear();
   const int num_vertices = soup->NumVertices();
   const auto add = [&](const std::int64_t* corners, size_t count) {
     for (size_t k = 0; k < count; ++k) {
       if (corners[k] < 0 || corners[k] >= num_vertices) {
-        RefuseIndex("faces: face " + std::to_string(soup->NumPolygons()), corners[k], num_vertices);
+        RefuseIndex(name + ": face " + std::to_string(soup->NumPolygons()), corners[k],
+                    num_vertices);
       }
       soup->corners.push_back(static_cast<int>(corners[k]));
     }
@@ -139,19 +157,19 @@ void SetPolygons(py::handle faces, Soup* soup) {
   const bool ragged = py::isinstance<py::list>(faces) || py::isinstance<py::tuple>(faces);
   if (ragged) {
     for (py::handle face : faces) {
-      const std::string name = "faces[" + std::to_string(soup->NumPolygons()) + "]";
+      const std::string own = NumberedName(name, soup->NumPolygons());
       const std::vector<std::int64_t> corners =
-          ToIndices(face, name, "the numbers of a polygon's vertices");
-      if (corners.size() < 3) throw py::value_error(name + ": has fewer than three vertices");
+          ToIndices(face, own, "the numbers of a polygon's vertices");
+      if (corners.size() < 3) throw py::value_error(own + ": has fewer than three vertices");
       add(corners.data(), corners.size());
     }
     return;
   }
-  const py::array array = ToNumbers(faces, "faces", kInteger, what);
+  const py::array array = ToNumbers(faces, name, kReal, what);
   if (array.ndim() != 2 || array.shape(1) < 3) {
-    throw py::value_error("faces: must be " + what + ", not " + ShapeOf(array));
+    throw py::value_error(name + ": must be " + what + ", not " + ShapeOf(array));
   }
-  const auto numbers = Contiguous<std::int64_t>(array);
+  const std::vector<std::int64_t> numbers = ToIndices(array, name, what);
   const auto corners = static_cast<size_t>(array.shape(1));
   for (py::ssize_t i = 0; i < array.shape(0); ++i) {
     add(numbers.data() + static_cast<size_t>(i) * corners, corners);
@@ -161,7 +179,7 @@ void SetPolygons(py::handle faces, Soup* soup) {
 std::vector<std::pair<int, int>> ToPairs(py::handle value, const std::string& name, int num_first,
                                          int num_second) {
   const std::string what = "a k x 2 array of integers";
-  const py::array array = ToNumbers(value, name, kInteger, what);
+  const py::array array = ToNumbers(value, name, kReal, what);
   if (array.size() == 0) return {};
   if (array.ndim() != 2 || array.shape(1) != 2) {
     throw py::value_error(name + ": must be " + what + ", not " + ShapeOf(array));
@@ -169,7 +187,7 @@ std::vector<std::pair<int, int>> ToPairs(py::handle value, const std::string& na
   const std::vector<std::int64_t> numbers = ToIndices(value, name, what);
   std::vector<std::pair<int, int>> pairs;
   for (size_t i = 0; i < numbers.size(); i += 2) {
-    const std::string element = name + "[" + std::to_string(i / 2) + "]";
+    const std::string element = NumberedName(name, i / 2);
     for (int k = 0; k < 2; ++k) {
       const int count = k == 0 ? num_first : num_second;
       if (numbers[i + k] < 0 || numbers[i + k] >= count) {
@@ -183,7 +201,7 @@ std::vector<std::pair<int, int>> ToPairs(py::handle value, const std::string& na
 
 std::vector<int> ToVertices(py::handle value, const std::string& name, int num_vertices) {
   const std::string what = "a list of numbers of vertices, or a truth value for each vertex";
-  const py::array array = ToNumbers(value, name, "iub", what);
+  const py::array array = ToNumbers(value, name, "fiub", what);
   if (array.ndim() != 1) {
     throw py::value_error(name + ": must be " + what + ", not " + ShapeOf(array));
   }
@@ -201,6 +219,23 @@ std::vector<int> ToVertices(py::handle value, const std::string& name, int num_v
     vertices.push_back(static_cast<int>(vertex));
   }
   return vertices;
+}
+
+Eigen::VectorXi ToIntegers(py::handle value, const std::string& name) {
+  const std::string what = "a one-dimensional array of integers";
+  const py::array array = ToNumbers(value, name, kReal, what);
+  if (array.ndim() != 1) {
+    throw py::value_error(name + ": must be " + what + ", not " + ShapeOf(array));
+  }
+  const std::vector<std::int64_t> numbers = ToIndices(value, name, what);
+  Eigen::VectorXi integers(numbers.size());
+  for (size_t i = 0; i < numbers.size(); ++i) {
+    if (numbers[i] != static_cast<int>(numbers[i])) {
+      throw py::value_error(name + ": " + std::to_string(numbers[i]) + " is too large");
+    }
+    integers[static_cast<Eigen::Index>(i)] = static_cast<int>(numbers[i]);
+  }
+  return integers;
 }
 
 Eigen::VectorXd ToVector(py::handle value, const std::string& name) {

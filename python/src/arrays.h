@@ -25,6 +25,11 @@ namespace py = pybind11;
 /// be. \throw py::type_error, py::value_error, MeshError (a number is not finite).
 Shape ToShape(py::handle value, const std::string& name, int num_vertices = -1);
 
+/// "poses[3]", for messages.
+inline std::string NumberedName(const std::string& name, size_t i) {
+  return name + "[" + std::to_string(i) + "]";
+}
+
 /// The same for a pose of a mesh. \throw MeshError that says what to do with a pose of another
 /// mesh.
 Shape ToPose(py::handle value, const std::string& name, int num_vertices);
@@ -37,7 +42,7 @@ std::vector<Shape> ToShapes(py::handle value, const std::string& name, int num_v
 
 /// The polygons of `soup`, which has its vertices, from an m x 3 or m x 4 array of integers, or a
 /// sequence of polygons of any numbers of corners. \throw also MeshError if an index is outside.
-void SetPolygons(py::handle faces, Soup* soup);
+void SetPolygons(py::handle faces, Soup* soup, const std::string& name = "faces");
 
 /// Pairs of vertices, k x 2. \throw also MeshError if an index is outside.
 std::vector<std::pair<int, int>> ToPairs(py::handle value, const std::string& name, int num_first,
@@ -47,6 +52,9 @@ std::vector<std::pair<int, int>> ToPairs(py::handle value, const std::string& na
 /// as `num_vertices` stands for a mesh that is not known yet. \throw also
 /// MeshError if one is outside.
 std::vector<int> ToVertices(py::handle value, const std::string& name, int num_vertices);
+
+/// A one-dimensional array of whole numbers.
+Eigen::VectorXi ToIntegers(py::handle value, const std::string& name);
 
 /// A one-dimensional array of floats.
 Eigen::VectorXd ToVector(py::handle value, const std::string& name);

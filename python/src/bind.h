@@ -42,12 +42,20 @@ void BindSpaces(py::module_* module);
 void BindCorrespondence(py::module_* module);
 void BindSolvers(py::module_* module);
 void BindModels(py::module_* module);
+void BindSkinning(py::module_* module);
+
+/// What messages call the arguments of `MakePoses`.
+struct ArgumentNames {
+  std::vector<std::string> shapes;  ///< each; none: shapes[0], shapes[1], ...
+  std::string faces = "faces";
+};
 
 /// The mesh that `faces` stands for: of a Poses, Path, Metric, Space or Body; or triangles or
 /// polygons as in `SetPolygons`, on the vertices of `shapes`, which are checked as files are.
 /// \throw py::type_error, py::value_error, MeshError, MismatchError.
 Poses MakePoses(std::vector<Shape> shapes, py::handle faces, const ReadOptions& options = {},
-                py::handle segments = py::none(), py::handle stiffeners = py::none());
+                py::handle segments = py::none(), py::handle stiffeners = py::none(),
+                const ArgumentNames& names = {});
 
 /// Whether polygons are cut in the same way, and stiffeners, do not matter: they are the metric's.
 /// \throw MeshError if the metric was frozen on another mesh: it would lend the poses its faces.

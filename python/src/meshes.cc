@@ -24,12 +24,17 @@
 namespace shapespace::python {
 namespace {
 
+// As the user wrote it.
+std::string NameOfShape(const ArgumentNames& names, size_t i) {
+  return names.shapes.empty() ? NumberedName("shapes", i) : names.shapes[i];
+}
+
 // A mesh whose connectivity is there already.
 Poses PosesOf(const std::shared_ptr<const Connectivity>& connectivity, Soup soup,
-              std::vector<Shape> shapes) {
+              std::vector<Shape> shapes, const ArgumentNames& names) {
   for (size_t i = 0; i < shapes.size(); ++i) {
     if (shapes[i].cols() == connectivity->NumVertices()) continue;
-    throw MeshError(internal::OfOtherMesh("shape " + std::to_string(i), shapes[i].cols(),
+    throw MeshError(internal::OfOtherMesh(NameOfShape(names, i), shapes[i].cols(),
                                           connectivity->NumVertices(), kCorrespond));
   }
   Poses poses;
@@ -193,6 +198,25 @@ void BindContent(py::class_<Poses>* poses_class) {
       });
 }
 
+// Poses and meshes of arrays, whose arguments messages call as `name` has it.
+void BindMaking(py::module_* module) {
+  module->def("make_poses", [](py::handle shapes, py::handle faces, const std::string& name) {
+    std::vector<Shape> all = ToShapes(shapes, name);
+    ArgumentNames names;
+    for (size_t i = 0; i < all.size(); ++i) names.shapes.push_back(NumberedName(name, i));
+    Poses poses = MakePoses(std::move(all), faces, {}, py::none(), py::none(), names);
+    Warn(poses.warnings);
+    return poses;
+  });
+  module->def("make_mesh", [](py::handle vertices, py::handle faces, const std::string& name,
+                              const std::string& name_of_faces) {
+    Poses mesh = MakePoses({ToShape(vertices, name)}, faces, {}, py::none(), py::none(),
+                           {{name}, name_of_faces});
+    Warn(mesh.warnings);
+    return mesh;
+  });
+}
+
 void BindMeshFiles(py::module_* module) {
   module->def(
       "read",
@@ -300,25 +324,26 @@ void BindBodies(py::module_* module) {
 }  // namespace
 
 Poses MakePoses(std::vector<Shape> shapes, py::handle faces, const ReadOptions& options,
-                py::handle segments, py::handle stiffeners) {
+                py::handle segments, py::handle stiffeners, const ArgumentNames& names) {
   if (py::isinstance<Poses>(faces)) {
     const auto& mesh = py::cast<const Poses&>(faces);
-    return PosesOf(mesh.connectivity, mesh.soup, std::move(shapes));
+    return PosesOf(mesh.connectivity, mesh.soup, std::move(shapes), names);
   }
   Appearance appearance;
   if (const auto connectivity = ConnectivityIn(faces, &appearance)) {
-    return PosesOf(connectivity, FrameSoup(*connectivity, appearance), std::move(shapes));
+    return PosesOf(connectivity, FrameSoup(*connectivity, appearance), std::move(shapes), names);
   }
   if (faces.is_none() && segments.is_none()) {
-    throw py::type_error("faces: are missing; give m x 3 integers, or an object that has a mesh");
+    throw py::type_error(names.faces +
+                         ": are missing; give m x 3 integers, or an object that has a mesh");
   }
   std::vector<Soup> soups(shapes.size());
   for (size_t i = 0; i < shapes.size(); ++i) {
-    soups[i].file = "shapes[" + std::to_string(i) + "]";  // what messages name
+    soups[i].file = NameOfShape(names, i);  // what messages name
     soups[i].vertices = std::move(shapes[i]);
     if (i == 0) {
       const int num_vertices = soups[0].NumVertices();
-      if (!faces.is_none()) SetPolygons(faces, &soups[0]);
+      if (!faces.is_none()) SetPolygons(faces, &soups[0], names.faces);
       if (!segments.is_none()) {
         soups[0].segments = ToPairs(segments, "segments", num_vertices, num_vertices);
       }
@@ -377,6 +402,7 @@ void CheckIsOfMesh(const Metric& metric, const Connectivity& mesh) {
 void BindMeshes(py::module_* module) {
   auto poses = BindPoses(module);
   BindContent(&poses);
+  BindMaking(module);
   BindMeshFiles(module);
   BindMeshQueries(module);
   BindBodies(module);

@@ -21,5 +21,6 @@ PYBIND11_MODULE(_core, module) {
   BindCorrespondence(&module);
   BindSolvers(&module);
   BindModels(&module);
+  BindSkinning(&module);
   module.def("options", &DescribeOptions);
 }

@@ -24,6 +24,10 @@ bool IsTruthValue(py::handle value) {
          py::isinstance(value, py::module_::import("numpy").attr("bool_"));
 }
 
+bool IsWholeFloat(py::handle value) {
+  return py::hasattr(value, "is_integer") && py::cast<bool>(value.attr("is_integer")());
+}
+
 namespace {
 
 // A preset by its name. "deformation" is refused, because it depends on the mesh; functions that
@@ -122,6 +126,7 @@ py::list DescribeOptions(const std::string& name) {
       {"CorrespondenceOptions", Describe<CorrespondenceOptions>},
       {"EmbeddingOptions", Describe<EmbeddingOptions>},
       {"ExploreOptions", Describe<ExploreOptions>},
+      {"SkinningOptions", Describe<SkinningOptions>},
       {"SplineOptions", Describe<SplineOptions>},
       {"AverageOptions", Describe<AverageOptions>},
       {"ShapeModelOptions", Describe<ShapeModelOptions>},

@@ -18,6 +18,7 @@
 #include <shapespace/geodesic/internal/option_fields.h>
 #include <shapespace/metric/internal/option_fields.h>
 #include <shapespace/output/internal/option_fields.h>
+#include <shapespace/skinning/internal/option_fields.h>
 #include <shapespace/spline/internal/option_fields.h>
 #include <shapespace/statistics/internal/option_fields.h>
 #include <shapespace/transfer/internal/option_fields.h>
@@ -51,6 +52,9 @@ const Fields<Options>& FieldsOf();
 
 /// Whether it is Python's or numpy's True or False.
 bool IsTruthValue(py::handle value);
+
+/// Whether it is a float, Python's or numpy's, that is a whole number.
+bool IsWholeFloat(py::handle value);
 
 /// Sets the fields that `keywords` name. \throw py::type_error naming a keyword that is none or a
 /// value of another type; py::value_error. Messages list `others`, which the caller takes, too.
@@ -102,9 +106,14 @@ struct SimpleValue {
     // Truth values are integers to Python, and would be taken for numbers.
     const bool truth = IsTruthValue(given);
     if (truth != std::is_same_v<T, bool>) RefuseType(name, Value<T>::Type(), given);
-    const bool is_path = std::is_same_v<T, std::string> && py::hasattr(given, "__fspath__");
+    py::object plain = py::reinterpret_borrow<py::object>(given);
+    if (std::is_same_v<T, std::string> && py::hasattr(given, "__fspath__")) {
+      plain = given.attr("__fspath__")();
+    } else if (std::is_same_v<T, int> && IsWholeFloat(given)) {
+      plain = py::int_(plain);
+    }
     try {
-      *value = py::cast<T>(is_path ? given.attr("__fspath__")() : given);
+      *value = py::cast<T>(plain);
     } catch (const py::cast_error&) {
       RefuseType(name, Value<T>::Type(), given);
     }
@@ -215,7 +224,7 @@ struct Value<std::vector<Eigen::VectorXd>> {
     value->clear();
     if (given.is_none()) return;
     for (py::handle row : given) {
-      value->push_back(ToVector(row, name + "[" + std::to_string(value->size()) + "]"));
+      value->push_back(ToVector(row, NumberedName(name, value->size())));
     }
   }
   static py::object Get(const std::vector<Eigen::VectorXd>&) { return py::none(); }
@@ -228,7 +237,7 @@ struct Value<std::vector<Shape>> {
     value->clear();
     if (given.is_none()) return;
     for (py::handle shape : given) {
-      value->push_back(ToShape(shape, name + "[" + std::to_string(value->size()) + "]"));
+      value->push_back(ToShape(shape, NumberedName(name, value->size())));
     }
   }
   static py::object Get(const std::vector<Shape>&) { return py::none(); }
@@ -245,7 +254,7 @@ template <>
 struct Value<Eigen::VectorXi> {
   static std::string Type() { return "array of int"; }
   static void Set(Eigen::VectorXi* value, py::handle given, const std::string& name) {
-    *value = given.is_none() ? Eigen::VectorXi() : ToVector(given, name).cast<int>();
+    *value = given.is_none() ? Eigen::VectorXi() : ToIntegers(given, name);
   }
   static py::object Get(const Eigen::VectorXi&) { return py::none(); }
 };

@@ -10,6 +10,7 @@
 #include <shapespace/deformation/internal/summary_fields.h>
 #include <shapespace/exploration/internal/summary_fields.h>
 #include <shapespace/exponential/internal/summary_fields.h>
+#include <shapespace/skinning/internal/summary_fields.h>
 #include <shapespace/spline/internal/summary_fields.h>
 #include <shapespace/statistics/internal/summary_fields.h>
 #include <shapespace/transfer/internal/summary_fields.h>
@@ -200,6 +201,8 @@ void BindSummaries(py::module_* module) {
       module, "PartInDoubt", "A part of the template that may belong elsewhere on the target.");
   Record<CorrespondenceSummary>(module, "CorrespondenceSummary",
                                 "How a template was fitted, and how good the fit is.")
+      .Reports<true, true>();
+  Record<SkinningSummary>(module, "SkinningSummary", "How bones were found, and how good they are.")
       .Reports<true, true>();
   Record<ExploreSummary::Level>(module, "ExploreLevel", "A round of refinement.");
   Record<ExploreSummary>(module, "ExploreSummary", "How a space was made, and how good it is.")

@@ -61,7 +61,7 @@ def test_rigid_parts_depend_on_what_is_tolerated(path):
 def test_a_surface_map_is_read_as_it_was_written(animal, tmp_path):
     mesh = ss.Poses([animal.pose("stand")], animal)
     markers = np.arange(0, len(mesh[0]), 30)
-    map = ss.correspond(mesh, None, mesh, None, np.stack([markers, markers], 1)).map
+    map = ss.correspond(mesh, mesh, np.stack([markers, markers], 1)).map
     map.write(tmp_path / "map.txt")
     again = ss.read_surface_map(tmp_path / "map.txt", mesh, mesh)
     np.testing.assert_array_equal(again.to_target.triangle, map.to_target.triangle)

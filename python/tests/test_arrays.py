@@ -97,7 +97,7 @@ def test_nothing_that_was_given_is_changed(poses, animal):
         ([TETRAHEDRON.astype(str)], SIDES, TypeError, r"shapes\[0\]"),
         ([np.full((4, 3), None)], SIDES, TypeError, "object"),
         ([TETRAHEDRON, TETRAHEDRON[:3]], SIDES, ValueError, r"shapes\[1\] .*3 .* 4"),
-        ([TETRAHEDRON], SIDES.astype(float), TypeError, "faces: .*float64"),
+        ([TETRAHEDRON], SIDES + 0.5, TypeError, "faces: must be .* 0.5 is no"),
         ([TETRAHEDRON], SIDES + 1, ValueError, "faces: face 1 names vertex 4, .*counted from 0"),
         ([TETRAHEDRON], SIDES - 1, ValueError, "faces: face 0 names vertex -1"),
         ([TETRAHEDRON], SIDES[0], ValueError, "faces: "),
@@ -222,9 +222,13 @@ def test_the_vertices_of_a_path_are_made_once_and_cannot_be_written(path):
 @pytest.mark.parametrize(
     "call, words",
     [
-        (lambda p, f: shapespace.extrapolate(list(p), 2), "path: must be a Path, not list"),
+        (lambda p, f: shapespace.extrapolate(list(p), 2), "faces: are missing"),
         (lambda p, f: shapespace.extrapolate(p, 2.5), "steps: must be int, not 2.5"),
-        (lambda p, f: shapespace.transfer(p.vertices, p[0]), "source: must be a Path"),
+        (lambda p, f: shapespace.extrapolate(p[:2], f), "steps: must be int"),
+        (lambda p, f: shapespace.transfer(p.vertices, p[0]), "faces: are missing"),
+        (lambda p, f: shapespace.correspond(p[0], f, p[1]), "the faces of target: are missing"),
+        (lambda p, f: shapespace.correspond((p[0], f), (p[1], f), [], []), "no more"),
+        (lambda p, f: shapespace.write("x.obj", p), "a Path"),
         (lambda p, f: shapespace.logarithm(p, p[0], p[1]), "metric: must be a Metric"),
         (lambda p, f: shapespace.deform(p[0], f, [0]), r"handles\[0\]: must be a Handle"),
         (lambda p, f: shapespace.interpolate(shapespace.Poses(p[:2], f), f), "faces: leave them"),
@@ -254,8 +258,81 @@ def test_poses_are_files_pairs_or_arrays(animal, poses, tmp_path):
         shapespace.interpolate(files, animal.faces)
     with pytest.raises(ValueError, match=r"poses\[1\]"):
         shapespace.interpolate([(poses[0], animal.faces), (poses[1], animal.faces[::-1])])
-    one = shapespace.correspond(files[0], None, (poses[1], animal.faces), None, max_iterations=1)
+    one = shapespace.correspond(files[0], (poses[1], animal.faces), max_iterations=1)
     assert one.fitted.shape == poses[0].shape
+
+
+def test_poses_are_given_one_by_one_with_their_faces_last(animal, poses, tmp_path):
+    F = animal.faces
+    files = [tmp_path / f"{i}.obj" for i in range(2)]
+    for file, pose in zip(files, poses):
+        shapespace.write(file, (pose, F))
+    expected = shapespace.interpolate(poses, F, shapes=1).path.vertices
+    for given in ((*poses, F), ((poses[0], F), (poses[1], F)), files):
+        np.testing.assert_array_equal(
+            shapespace.interpolate(*given, shapes=1).path.vertices, expected
+        )
+    lengths = shapespace.distance_matrix(*poses, F, geodesic={"shapes": 1})
+    assert lengths.shape == (2, 2)
+    assert shapespace.intersections(poses[0], F).shape == (1,)
+    with pytest.raises(shapespace.MeshError, match=r"poses\[1\] has"):
+        shapespace.interpolate(poses[0], poses[1][1:], F)
+
+
+def test_functions_take_meshes_in_all_forms(animal, poses, tmp_path):
+    F, rest = animal.faces, animal.pose("stand")
+    file = tmp_path / "rest.obj"
+    shapespace.write(file, rest, F)
+    top = rest[:, 1] > 1.4
+    handles = [shapespace.Handle(~top), shapespace.Handle(top, translation=(0, 0.1, 0))]
+    ball = {"ball": {"center": rest[0].tolist(), "radius": 0.5}}
+    near = shapespace.select(rest, F, {"ball": {"centre": rest[0].tolist(), "radius": 0.5}})
+    bent = shapespace.deform(rest, F, handles, shapes=1).path.vertices
+    for mesh in ((rest, F), file, str(file), shapespace.read(file)):
+        np.testing.assert_array_equal(shapespace.select(mesh, ball), near)
+        np.testing.assert_array_equal(
+            shapespace.deform(mesh, handles, shapes=1).path.vertices, bent
+        )
+    path = shapespace.interpolate(poses, F, shapes=1).path
+    geodesic = {"shapes": 1}
+    accurate = shapespace.interpolate(poses, F, shapes=1, tolerance=1e-6).path
+    np.testing.assert_array_equal(
+        shapespace.extrapolate(poses, F, 1, geodesic=geodesic).path.vertices,
+        shapespace.extrapolate(accurate, 1).path.vertices,
+    )
+    moved = shapespace.transfer(poses, (poses[0], F), F, geodesic=geodesic).path
+    np.testing.assert_allclose(moved.vertices, path.vertices, atol=1e-3)
+    with pytest.raises(ValueError, match="target: has other faces"):
+        shapespace.transfer(path, (poses[0], F[::-1]))
+    assert shapespace.check((rest, F[1:])) == shapespace.check(rest, F[1:]) != []
+
+
+def test_floats_that_are_whole_are_faces_and_counts(animal, poses):
+    expected = shapespace.interpolate(poses, animal.faces, shapes=1).path.vertices
+    for count in (1.0, np.float32(1)):
+        path = shapespace.interpolate(poses, animal.faces.astype(float), shapes=count).path
+        np.testing.assert_array_equal(path.vertices, expected)
+    with pytest.raises(TypeError, match="faces: .* 0.5"):
+        shapespace.interpolate(poses, animal.faces * 0.5)
+    with pytest.raises(TypeError, match="faces"):
+        shapespace.interpolate(poses, np.where(animal.faces == 3, np.inf, animal.faces))
+    with pytest.raises(TypeError, match="shapes: must be int"):
+        shapespace.interpolate(poses, animal.faces, shapes=1.5)
+
+
+def test_messages_have_the_names_of_arguments(animal, poses):
+    F = animal.faces
+    broken = np.where(np.arange(len(poses[0]))[:, None] == 5, np.nan, poses[0])
+    for call, words in (
+        (lambda: shapespace.interpolate([poses[0], broken], F), r"poses\[1\]: vertex 5"),
+        (lambda: shapespace.film_strip([broken], F), r"shapes\[0\]: vertex 5"),
+        (lambda: shapespace.select(broken, F, "{}"), "vertices: vertex 5"),
+        (lambda: shapespace.repair(broken, poses[0], F), "reference: vertex 5"),
+        (lambda: shapespace.correspond((poses[0], F), (broken, F)), r"target\[0\]: vertex 5"),
+        (lambda: shapespace.correspond((poses[0], F), (poses[1], F + 9999)), r"target\[1\]: face"),
+    ):
+        with pytest.raises(shapespace.MeshError, match=words):
+            call()
 
 
 def test_a_solve_that_did_not_converge_warns(animal, poses):

@@ -70,7 +70,7 @@ def results(small):
         ss.repair(rest, small[1], small),
         ss.explore(small, depth=0, geodesic={"shapes": 1}),
         (ss.correspond(rest, small, rest, small, np.stack([markers, markers], 1)),),
-        (ss.ShapeModel().fit(small),),
+        (ss.ShapeModel().fit(small), path.skin(3)),
         (ss.film_strip(path, frame_width=32), feet, head),
         (ss.compare_shapes(path.metric, path[0], path[1]),),
     ]
@@ -86,7 +86,7 @@ def assert_same(one, two):
             assert_same(a, b)
     else:
         assert repr(one) == repr(two) and str(one) == str(two)
-        for name in ("vertices", "fitted", "mean", "pixels", "distances"):
+        for name in ("vertices", "fitted", "mean_", "pixels", "distances"):
             if hasattr(one, name):
                 assert_same(getattr(one, name), getattr(two, name))
         if hasattr(one, "to_dict"):

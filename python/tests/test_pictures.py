@@ -52,3 +52,20 @@ def test_a_path_is_written_as_a_film_and_as_pictures(path, tmp_path):
         path.write(tmp_path / "walk.gif", duration=-1)
     with pytest.raises(TypeError, match="'duration'"):
         path.write(tmp_path / "walk%d.png", duration=1)
+
+
+def test_a_motion_that_ends_where_it_begins_is_played_around(poses, animal, tmp_path):
+    there = ss.interpolate(poses, animal.faces, shapes=1).path
+    cycle = ss.Path([*there, there[1], there[0]], there.metric)
+    for name in ("walk.glb", "walk.gif"):
+        written = {}
+        for playback in ("auto", "loop", "there_and_back"):
+            cycle.write(tmp_path / name, playback=playback, duration=0.5)
+            written[playback] = (tmp_path / name).read_bytes()
+        cycle.write(tmp_path / name, duration=0.5)
+        assert (tmp_path / name).read_bytes() == written["auto"] == written["loop"]
+        assert written["loop"] != written["there_and_back"]
+        there.write(tmp_path / name, duration=0.5)
+        automatic = (tmp_path / name).read_bytes()
+        there.write(tmp_path / name, duration=0.5, playback="there_and_back")
+        assert (tmp_path / name).read_bytes() == automatic

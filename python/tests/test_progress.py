@@ -355,3 +355,8 @@ def test_processes_work_after_a_call(method, poses, animal, tmp_path):
             """)
     )
     subprocess.run([sys.executable, script], check=True, timeout=60)
+
+
+def test_what_is_stopped_before_there_is_a_path_is_cancelled(poses, animal):
+    with pytest.raises(shapespace.Cancelled):
+        shapespace.interpolate(poses, animal.faces, progress=lambda *told: False)

@@ -165,6 +165,15 @@ def test_handles_are_met(animal):
     assert np.isnan(deformer.deform(handles).summary.intersections)  # takes too long
 
 
+def test_a_deformation_needs_handles(animal):
+    for deform in (
+        lambda: shapespace.deform(animal.pose("stand"), animal.faces, []),
+        lambda: shapespace.Deformer(animal.pose("stand"), animal).deform([]),
+    ):
+        with pytest.raises(ValueError, match="handles"):
+            deform()
+
+
 def test_a_screw_motion_is_made(animal):
     rest = animal.pose("stand")
     everything = np.ones(len(rest), bool)
