@@ -5,11 +5,11 @@
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/extension.h>
 #include <shapespace/files/display_names.h>
+#include <shapespace/files/point_cache.h>
 #include <shapespace/files/write.h>
 #include <shapespace/mesh/rigid_motion.h>
 #include <shapespace/output/frames.h>
 #include <shapespace/output/picture.h>
-#include <shapespace/output/point_cache.h>
 #include <shapespace/statistics/average.h>
 #include <shapespace/statistics/internal/option_fields.h>
 

@@ -125,7 +125,8 @@ int main(int argc, char** argv) {
                   R"(  shape-export walk.path --output walk.png,frames/%03d.obj --frames 40 --ease
   shape-export walk.path --output quarter%d.obj --at .25,.5,.75
   shape-export walk.path --output middle.obj --at .5
-  shape-export frames/*.ply --output walk.glb --bones 20)",
+  shape-export frames/*.ply --output walk.glb --bones 20
+  shape-export cloth.obj cloth.pc2 --output cloth.glb --bones 20)",
                   {"export", "outputs", "camera", "bones", "anchor", "poses", "mesh", "memory",
                    "outside_files"}},
                  Run);

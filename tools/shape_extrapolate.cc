@@ -91,7 +91,8 @@ Path OriginFromPoses(const std::vector<std::string>& files, const GeodesicOption
 void Run(const std::vector<std::string>& files) {
   const bool from_path = IsOnePath(files);
   if (from_path) RefuseFlags({}, {"memory_limit"}, "goes with poses");
-  for (const char* flag : {"allow_mirrored", "allow_nonmanifold", "mirror", "open_seams"}) {
+  for (const char* flag :
+       {"allow_mirrored", "allow_mismatch", "allow_nonmanifold", "mirror", "open_seams"}) {
     if (from_path && IsGiven(flag)) {
       throw UsageError("--" + std::string(flag) +
                        ": goes with poses; a .path was already checked when it was made");

@@ -48,6 +48,8 @@ const char* Name(Severity severity) {
       return "non-manifold";
     case Severity::kMirrored:
       return "mirrored";
+    case Severity::kDoubtful:
+      return "doubtful";
     case Severity::kFatal:
       break;
   }
@@ -60,7 +62,8 @@ bool Print(const std::vector<Finding>& findings, Json* list, Telling* told) {
   for (const Finding& finding : findings) {
     Severity severity = finding.severity;
     if ((severity == Severity::kNonManifold && FLAGS_allow_nonmanifold) ||
-        (severity == Severity::kMirrored && FLAGS_allow_mirrored)) {
+        (severity == Severity::kMirrored && FLAGS_allow_mirrored) ||
+        (severity == Severity::kDoubtful && FLAGS_allow_mismatch)) {
       severity = Severity::kWarning;
     }
     const bool acceptable = severity <= Severity::kWarning;

@@ -8,11 +8,11 @@
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/extension.h>
 #include <shapespace/files/display_names.h>
+#include <shapespace/files/point_cache.h>
 #include <shapespace/files/write.h>
 #include <shapespace/output/frames.h>
 #include <shapespace/output/page.h>
 #include <shapespace/output/path_output.h>
-#include <shapespace/output/point_cache.h>
 #include <shapespace/statistics/assess.h>
 #include <shapespace/statistics/internal/option_fields.h>
 #include <shapespace/statistics/modes_file.h>
@@ -154,7 +154,7 @@ PoseModes ModesOf(const std::vector<std::string>& files) {
   if (files.size() == 1 && internal::FileExtension(files[0]) == ".modes") {
     RefuseFlags({"metric"},
                 {"size", "certify", "refine", "stiffeners", "loose_components", "strict", "mirror",
-                 "allow_mirrored"},
+                 "allow_mirrored", "allow_mismatch"},
                 "goes with poses; " + files[0] + " contains its own metric and modes");
     PoseModes modes = ReadModes(files[0]);
     if (IsGiven("modes")) {

@@ -255,6 +255,7 @@ def read(
     open_seams=False,
     mirror=None,
     allow_mirrored=False,
+    allow_mismatch=False,
     loose_components=False,
     allow_outside_files=False,
 ):
@@ -264,7 +265,8 @@ def read(
     ----------
     *files : str or path-like, or one list of them
         One or more OBJ, PLY, OFF, STL, glTF (.glb, .gltf) or VTK (.vtk, .vtp) files, with the same
-        faces in the same order. The morph targets of a glTF file are poses too.
+        faces in the same order. The morph targets of a glTF file are poses too, and so are the
+        frames of a point cache (.pc2, .mdd) after the mesh that it moves.
     stiffeners : str or path-like, optional
         File of further edges that the metric is to hold: two vertex numbers a line, from 1.
     allow_nonmanifold : bool, optional
@@ -278,6 +280,9 @@ def read(
     allow_mirrored : bool, optional
         Take poses that look like mirror images of the first as they are, with a warning: domes
         that are pushed through, bodies that are turned inside out.
+    allow_mismatch : bool, optional
+        Take poses as they are, with a warning, whose units or order of vertices seem to be others
+        than those of the first.
     loose_components : bool, optional
         Leave connected components loose, such as eyes and clothes, that stay near others in all
         poses. Otherwise they are tied to these by stiffeners, and `Poses.notes` says how many.
@@ -308,6 +313,7 @@ def read(
         open_seams,
         mirror,
         allow_mirrored,
+        allow_mismatch,
         loose_components,
         allow_outside_files,
     )

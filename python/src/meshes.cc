@@ -65,9 +65,10 @@ std::shared_ptr<const Connectivity> ConnectivityIn(py::handle mesh, Appearance* 
 }
 
 ReadOptions ReadingOptions(bool allow_nonmanifold, bool open_seams, const py::object& mirror,
-                           bool allow_mirrored, bool loose_components) {
+                           bool allow_mirrored, bool allow_mismatch, bool loose_components) {
   ReadOptions options;
   options.allow_mirrored = allow_mirrored;
+  options.allow_mismatch = allow_mismatch;
   options.loose_components = loose_components;
   options.allow_nonmanifold = allow_nonmanifold;
   options.open_seams = open_seams;
@@ -130,6 +131,9 @@ mirror : {'x', 'y', 'z'}, optional
 allow_mirrored : bool, optional
     Take poses that look like mirror images of the first as they are, with a warning: domes that are
     pushed through, bodies that are turned inside out.
+allow_mismatch : bool, optional
+    Take poses as they are, with a warning, whose units or order of vertices seem to be others than
+    those of the first.
 loose_components : bool, optional
     Leave connected components loose, such as eyes and clothes, that stay near others in all poses.
     Otherwise they are tied to these by stiffeners, and `notes` says how many.
@@ -143,11 +147,13 @@ MismatchError
 )")
       .def(py::init([](py::handle shapes, py::handle faces, py::handle segments,
                        py::handle stiffeners, bool allow_nonmanifold, bool open_seams,
-                       const py::object& mirror, bool allow_mirrored, bool loose_components) {
-             Poses poses = MakePoses(ToShapes(shapes, "shapes"), faces,
-                                     ReadingOptions(allow_nonmanifold, open_seams, mirror,
-                                                    allow_mirrored, loose_components),
-                                     segments, stiffeners);
+                       const py::object& mirror, bool allow_mirrored, bool allow_mismatch,
+                       bool loose_components) {
+             Poses poses =
+                 MakePoses(ToShapes(shapes, "shapes"), faces,
+                           ReadingOptions(allow_nonmanifold, open_seams, mirror, allow_mirrored,
+                                          allow_mismatch, loose_components),
+                           segments, stiffeners);
              Warn(poses.warnings);
              return poses;
            }),
@@ -156,6 +162,7 @@ MismatchError
            py::arg("allow_nonmanifold") = ReadOptions().allow_nonmanifold,
            py::arg("open_seams") = ReadOptions().open_seams, py::arg("mirror") = py::none(),
            py::arg("allow_mirrored") = ReadOptions().allow_mirrored,
+           py::arg("allow_mismatch") = ReadOptions().allow_mismatch,
            py::arg("loose_components") = ReadOptions().loose_components)
       .def(Pickle<Poses>());
 }
@@ -222,9 +229,9 @@ void BindMeshFiles(py::module_* module) {
       "read",
       [](const std::vector<std::string>& files, const std::string& stiffeners,
          bool allow_nonmanifold, bool open_seams, const py::object& mirror, bool allow_mirrored,
-         bool loose_components, bool allow_outside_files) {
-        ReadOptions options =
-            ReadingOptions(allow_nonmanifold, open_seams, mirror, allow_mirrored, loose_components);
+         bool allow_mismatch, bool loose_components, bool allow_outside_files) {
+        ReadOptions options = ReadingOptions(allow_nonmanifold, open_seams, mirror, allow_mirrored,
+                                             allow_mismatch, loose_components);
         options.stiffeners = stiffeners;
         options.allow_outside_files = allow_outside_files;
         Poses poses = WithoutLock(py::none(), [=](Progress*) { return ReadPoses(files, options); });
@@ -234,8 +241,8 @@ void BindMeshFiles(py::module_* module) {
         return poses;
       },
       py::arg("files"), py::arg("stiffeners"), py::arg("allow_nonmanifold"), py::arg("open_seams"),
-      py::arg("mirror"), py::arg("allow_mirrored"), py::arg("loose_components"),
-      py::arg("allow_outside_files"));
+      py::arg("mirror"), py::arg("allow_mirrored"), py::arg("allow_mismatch"),
+      py::arg("loose_components"), py::arg("allow_outside_files"));
 
   module->def("write", [](const std::string& file, py::handle vertices, py::handle faces) {
     const Shape shape = ToShape(vertices, "vertices");

@@ -15,6 +15,7 @@
 #include <shapespace/deformation/standing.h>
 #include <shapespace/exploration/explore.h>
 #include <shapespace/exploration/space_file.h>
+#include <shapespace/files/point_cache.h>
 #include <shapespace/files/read.h>
 #include <shapespace/files/vertex_field.h>
 #include <shapespace/mesh/check.h>
@@ -96,6 +97,14 @@ void ReadMesh(const std::string& bytes) {
 // glTF and its morph targets.
 void ReadGlb(const std::string& bytes) {
   for (const Soup& soup : ReadSoups(BytesFile(bytes, "bytes.glb"))) CheckRead(soup);
+}
+
+template <bool is_pc2>
+void ReadCache(const std::string& bytes) {
+  const PointCache cache = ReadPointCache(BytesFile(bytes, is_pc2 ? "bytes.pc2" : "bytes.mdd"));
+  for (const Shape& shape : cache.shapes) {
+    Expect(shape.allFinite(), "a vertex that is not finite was read");
+  }
 }
 
 // An OBJ whose materials are the bytes. Outputs read the materials, not the reader of OBJ.
@@ -249,6 +258,8 @@ std::vector<Target> Readers() {
       {"glb", ReadGlb},
       {"vtk", ReadMesh<MeshFormat::kVtk>},
       {"vtp", ReadMesh<MeshFormat::kVtp>},
+      {"pc2", ReadCache<true>},
+      {"mdd", ReadCache<false>},
       {"path", ReadAnyPath},
       {"space", ReadAnySpace},
       {"record", ReadRecord},

@@ -28,7 +28,9 @@ void ExpectOnly(const Soup& reference, const Soup& pose, const std::string& kind
   ASSERT_EQ(findings.size(), 1u) << kind;
   EXPECT_EQ(findings[0].kind, kind);
   EXPECT_EQ(findings[0].severity, severity);
-  EXPECT_EQ(findings[0].option, kind == "mirrored" ? "mirror" : "");
+  EXPECT_EQ(findings[0].option, severity == Severity::kMirrored   ? "mirror"
+                                : severity == Severity::kDoubtful ? "allow_mismatch"
+                                                                  : "");
   for (const std::string& part : parts) {
     EXPECT_NE(findings[0].message.find(part), std::string::npos)
         << "no '" << part << "' in: " << findings[0].message;
@@ -231,8 +233,11 @@ TEST(CheckSameMeshTest, OtherUnits) {
   const Soup torus = Torus(9, 7);
   Soup pose = torus;
   pose.vertices *= 1000.0;
-  ExpectOnly(torus, pose, "other-units", Severity::kWarning, {"1e+03 times"});
-  ExpectOnly(pose, torus, "other-units", Severity::kWarning, {"0.001 times"});
+  ExpectOnly(torus, pose, "other-units", Severity::kDoubtful, {"1e+03 times"});
+  ExpectOnly(pose, torus, "other-units", Severity::kDoubtful, {"0.001 times"});
+  // Feet and yards, metres and feet; and bodies that grow.
+  pose.vertices = 3.3 * torus.vertices;
+  ExpectOnly(torus, pose, "other-units", Severity::kWarning, {"3.3 times"});
 }
 
 TEST(CheckSameMeshTest, PositionsInAnotherOrderAreFoundInAnyUnits) {
@@ -248,6 +253,7 @@ TEST(CheckSameMeshTest, PositionsInAnotherOrderAreFoundInAnyUnits) {
     ASSERT_EQ(findings.size(), scale == 1.0 ? 1u : 2u);
     EXPECT_EQ(findings.back().kind, "vertex-order");
     EXPECT_EQ(findings.back().severity, Severity::kWarning);
+    EXPECT_EQ(findings.front().severity, scale == 1.0 ? Severity::kWarning : Severity::kDoubtful);
     EXPECT_NE(findings.back().message.find("in groups: 1)"), std::string::npos)
         << findings.back().message;
     EXPECT_NE(findings.back().message.find("vertex 1001"), std::string::npos)
@@ -260,7 +266,7 @@ TEST(CheckSameMeshTest, AllPositionsInAnotherOrderAreFound) {
   Soup pose = torus;
   const std::vector<int> order = Shuffled(1200, 0, 1200);
   for (int v = 0; v < 1200; ++v) pose.vertices.col(order[v]) = 0.01 * torus.vertices.col(v);
-  ExpectOnly(torus, pose, "vertex-order", Severity::kWarning, {"most vertices"});
+  ExpectOnly(torus, pose, "vertex-order", Severity::kDoubtful, {"most vertices"});
 }
 
 TEST(CheckSameMeshTest, SingleSliversAreNoGroup) {

@@ -118,6 +118,19 @@ TEST_F(PosesTest, MirrorImagesAreTurnedBackIfAsked) {
   ExpectError<InvalidOptions>([&] { ReadPoses(files, options); }, {"mirror: 'w'"});
 }
 
+TEST_F(PosesTest, PosesInOtherUnitsAreRefusedUnlessAllowed) {
+  const std::string faces = "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+  const std::vector<std::string> files = {
+      File("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n" + faces),
+      File("mm.obj", "v 0 0 0\nv 1000 0 0\nv 0 1000 0\nv 0 0 1000\n" + faces)};
+  ExpectError<MismatchError>([&] { ReadPoses(files); }, {"mm.obj", "1e+03", "allow_mismatch"});
+  ReadOptions options;
+  options.allow_mismatch = true;
+  const Poses poses = ReadPoses(files, options);
+  EXPECT_EQ(poses.shapes[1](0, 1), 1000.0);
+  EXPECT_EQ(poses.warnings.size(), 1u);
+}
+
 TEST_F(PosesTest, ConcavePolygonsAreCutAsTheMeanOfThePosesSuits) {
   // A dart with its tip at vertex 2: only the diagonal 2-4 lies inside.
   const std::string dart = "v 0 0 0\nv 2 0.5 0\nv 0 1 0\nv 0.5 0.5 0\nf 1 2 3 4\n";

@@ -6,11 +6,11 @@
 #include <shapespace/analysis/rigid_parts.h>
 #include <shapespace/base/error.h>
 #include <shapespace/bodies/bar.h>
+#include <shapespace/files/point_cache.h>
 #include <shapespace/files/read.h>
 #include <shapespace/files/write.h>
 #include <shapespace/output/film.h>
 #include <shapespace/output/frames.h>
-#include <shapespace/output/point_cache.h>
 #include <shapespace/output/vertex_colours.h>
 #include <shapespace/output/vtk.h>
 #include <shapespace/path/path_file.h>
@@ -211,7 +211,7 @@ TEST_F(PathOutputTest, MeshesAndAnimationsHaveTheColoursThatAreAskedFor) {
   PathOutputOptions options;
   options.colours = PathColours::kDeviation;
   options.reference = path_.shapes[1];
-  const DeviationColours deviation = ColourByDeviation(path_, path_.shapes[1]);
+  const ValueColours deviation = ColourByDeviation(path_, path_.shapes[1]);
   EXPECT_EQ(WritePathOutput(PathOutput::Of(Path("a.glb")), path_, options).colour_end, [&] {
     GltfOptions own;
     own.colour_by_deviation = true;

@@ -28,7 +28,7 @@ class VertexColoursTest : public testing::FilesTest {
 
 // Along the scale, blue becomes steadily less.
 TEST_F(VertexColoursTest, LessBlueWhereTheDeviationIsGreater) {
-  const DeviationColours colours = ColourByDeviation(path_);
+  const ValueColours colours = ColourByDeviation(path_);
   ASSERT_EQ(colours.of_shapes.size(), 3u);
   const Eigen::RowVectorXd none = colours.of_shapes[0].row(2);
   EXPECT_EQ(none.minCoeff(), none.maxCoeff());
@@ -48,7 +48,7 @@ TEST_F(VertexColoursTest, LessBlueWhereTheDeviationIsGreater) {
 }
 
 TEST_F(VertexColoursTest, DeviationIsFromTheReference) {
-  const DeviationColours colours = ColourByDeviation(path_, path_.shapes[2]);
+  const ValueColours colours = ColourByDeviation(path_, path_.shapes[2]);
   EXPECT_EQ(colours.of_shapes[2].colwise().mean().minCoeff(),
             colours.of_shapes[2].colwise().mean().maxCoeff());
 }
@@ -57,7 +57,7 @@ TEST_F(VertexColoursTest, FramesShowColoursInsteadOfMaterials) {
   Soup soup = FrameSoup(*path_.metric->connectivity);
   soup.appearance.materials = {{"red"}, std::vector<int>(soup.NumPolygons(), 0)};
   soup.appearance.groups = {{"left"}, std::vector<int>(soup.NumPolygons(), 0)};
-  const DeviationColours colours = ColourByDeviation(path_);
+  const ValueColours colours = ColourByDeviation(path_);
   for (const std::string pattern : {"%d.ply", "%d.obj"}) {
     WriteFrames(Path(pattern), path_.Placed(), soup, colours.of_shapes);
     for (int i = 0; i < 3; ++i) {
@@ -78,6 +78,20 @@ TEST_F(VertexColoursTest, GroupsHaveDifferentColours) {
     EXPECT_GT((colours.col(a) - colours.col(b)).norm(), 0.2) << a << " " << b;
   }
   EXPECT_LT(colours.col(4).maxCoeff() - colours.col(4).minCoeff(), 0.05) << "grey for none";
+}
+
+TEST_F(VertexColoursTest, BonesHaveTheColoursOfGroupsMixedByWeights) {
+  SkinnedPath path;
+  path.bones = (Eigen::MatrixXi(2, 3) << 0, 1, 1, 0, 0, 0).finished();
+  path.weights = (Eigen::MatrixXd(2, 3) << 1, 1, 0.5, 0, 0, 0.5).finished();
+  const Eigen::MatrixXd colours = ColourByBone(path);
+  const Eigen::MatrixXd groups = ColourByGroup(Eigen::Vector2i(0, 1));
+  EXPECT_EQ(colours.leftCols(2), groups);
+  for (int k = 0; k < 3; ++k) {
+    const auto ends = std::minmax(groups(k, 0), groups(k, 1));
+    EXPECT_GT(colours(k, 2), ends.first);
+    EXPECT_LT(colours(k, 2), ends.second);
+  }
 }
 
 }  // namespace

@@ -339,6 +339,22 @@ TEST_F(RefusalTest, MirrorImagesAreToldAndTurnedBackIfAsked) {
   EXPECT_EQ(Run("shape-inspect", {"tube0.obj", "flipped.obj", "--allow_mirrored"}).code, 0);
 }
 
+TEST_F(RefusalTest, PosesInOtherUnits) {
+  MakeTubes();
+  const Soup soup = ReadSoup(Path("tube1.obj"));
+  WriteMesh(Path("inches.obj"), 39.37 * soup.vertices, soup);
+  const Strings pair = {"tube0.obj", "inches.obj"},
+                allowed = {"tube0.obj", "inches.obj", "--allow_mismatch"};
+  const Outcome refused = Run("shape-interpolate", pair);
+  EXPECT_EQ(refused.code, 1);
+  ExpectContains(refused.err, "--allow_mismatch");
+  EXPECT_EQ(Run("shape-inspect", pair).code, 1);
+  EXPECT_EQ(Run("shape-inspect", allowed).code, 0);
+  Strings solve = allowed;
+  solve.insert(solve.end(), {"--shapes", "1", "--output", "grown.path"});
+  EXPECT_EQ(Run("shape-interpolate", solve).code, 0);
+}
+
 TEST_F(RefusalTest, SolvesBeyondTheMemoryLimit) {
   MakeTubes();
   ExpectRefusal(1, {"tube0.obj", "tube1.obj", "--memory_limit", "0.001", "--output", "w.path"},

@@ -18,6 +18,10 @@ DEFINE_string(
 DEFINE_bool(allow_mirrored, false,
             "take poses that look like mirror images of the first as they are: domes that are "
             "pushed through, bodies that are turned inside out");
+DEFINE_bool(
+    allow_mismatch, false,
+    "take poses as they are whose units, or order of vertices, seem to be others than those "
+    "of the first");
 FLAG_GROUP(mesh, "Input", "");
 
 namespace shapespace::tools {

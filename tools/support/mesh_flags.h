@@ -4,6 +4,7 @@
 #include <gflags/gflags.h>
 
 DECLARE_bool(allow_mirrored);
+DECLARE_bool(allow_mismatch);
 DECLARE_bool(allow_nonmanifold);
 DECLARE_bool(open_seams);
 

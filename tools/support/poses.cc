@@ -45,6 +45,7 @@ ReadOptions OptionsFromFlags(bool tie = true) {
   options.open_seams = FLAGS_open_seams;
   options.mirror = MirrorFromFlags();
   options.allow_mirrored = FLAGS_allow_mirrored;
+  options.allow_mismatch = FLAGS_allow_mismatch;
   options.allow_outside_files = FLAGS_allow_outside_files;
   return options;
 }
@@ -61,8 +62,8 @@ Poses CheckedWithWarnings(Poses poses) {
 
 // Whether a file of this name is written by tools, and holds no pose that could be read.
 bool IsOutputAlone(const std::string& file) {
-  static const std::set<std::string> extensions = {".png",  ".gif", ".apng", ".html",
-                                                   ".usda", ".pc2", ".mdd",  ".path"};
+  static const std::set<std::string> extensions = {".png",  ".gif",  ".apng",
+                                                   ".html", ".usda", ".path"};
   return extensions.count(internal::FileExtension(file)) > 0;
 }
 
@@ -114,7 +115,8 @@ Poses ReadPoseOf(const Path& path, const std::string& path_file, const std::stri
   for (const Finding& finding : CheckSameMesh(reference, pose)) {
     if (finding.different_meshes) throw DifferentMeshes(finding.message, path_file, file);
     if (finding.severity == Severity::kFatal ||
-        (finding.severity == Severity::kMirrored && !FLAGS_allow_mirrored)) {
+        (finding.severity == Severity::kMirrored && !FLAGS_allow_mirrored) ||
+        (finding.severity == Severity::kDoubtful && !FLAGS_allow_mismatch)) {
       throw MismatchError(finding.message, finding.option);
     }
     Warn(finding.message);

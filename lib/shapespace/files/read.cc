@@ -9,6 +9,7 @@
 #include <shapespace/base/internal/read_file.h>
 #include <shapespace/base/internal/text.h>
 #include <shapespace/files/detail/read_formats.h>
+#include <shapespace/files/point_cache.h>
 #include <shapespace/mesh/check.h>
 #include <shapespace/mesh/different_meshes.h>
 #include <shapespace/mesh/internal/check_positions.h>
@@ -61,10 +62,37 @@ MeshFormat FormatOf(const std::string& file) {
                                       {".vtp", MeshFormat::kVtp}}) {
     if (extension == known) return format;
   }
+  if (IsPointCache(file)) {
+    throw FileError(file +
+                    ": a point cache has no faces; where poses are read, name the file of its mesh "
+                    "before it");
+  }
   throw FileError(
       file + ": the extension " + internal::Quoted(extension) +
       " is not one of .obj, .ply, .off, .stl, .glb, .gltf, .vtk, .vtp; convert the mesh to "
       "one of these");
+}
+
+// Calls `add` with each frame of a point cache as a pose of the mesh before it.
+template <typename Add>
+void ForFrames(const std::string& file, const Soup& mesh, const Add& add) {
+  PointCache cache = ReadPointCache(file);
+  if (cache.shapes[0].cols() != mesh.NumVertices()) {
+    throw FileError(file + ": has " + std::to_string(cache.shapes[0].cols()) + " vertices, and " +
+                    internal::FileName(mesh) + " has " + std::to_string(mesh.NumVertices()) +
+                    "; name the mesh that the cache moves before it, as an .obj or .ply, which "
+                    "keep the order of vertices");
+  }
+  for (size_t i = 0; i < cache.shapes.size(); ++i) {
+    Soup pose = mesh;
+    pose.file = file;
+    pose.name = "frame " + std::to_string(i + 1);
+    pose.vertices = std::move(cache.shapes[i]);
+    if (!cache.even && i == 0) {
+      pose.dropped.push_back(file + ": its frames are not evenly spaced in time, and are taken so");
+    }
+    add(std::move(pose));
+  }
 }
 
 // The first of a file's poses, with a sentence about the others.
@@ -114,6 +142,7 @@ class FindingPolicy {
       const bool fatal =
           finding.severity == Severity::kFatal ||
           (finding.severity == Severity::kMirrored && !options_.allow_mirrored) ||
+          (finding.severity == Severity::kDoubtful && !options_.allow_mismatch) ||
           (finding.severity == Severity::kNonManifold && !options_.allow_nonmanifold);
       // With an option, the call would do what it refuses only if it is that of all of them.
       if (fatal) option = reported == 0 || option == finding.option ? finding.option : "";
@@ -144,10 +173,10 @@ std::vector<int> JoinSeams(Poses* poses) {
   return std::move(seams.representatives);
 }
 
-// Poses from `count` sources, the i-th of which gives the soups next(i), one or more. They are made
-// one after the other, because of all but the first only the positions are kept.
-template <typename Next>
-Poses Collect(size_t count, const Next& next, const ReadOptions& options) {
+// Poses of the soups with which `give` calls its argument one after the other, because of all but
+// the first only the positions are kept.
+template <typename Give>
+Poses Collect(const Give& give, const ReadOptions& options) {
   Poses poses;
   bool mirrored = false;
   FindingPolicy policy(options, &poses.warnings);
@@ -171,9 +200,7 @@ Poses Collect(size_t count, const Next& next, const ReadOptions& options) {
     policy.Enforce(internal::CheckPositions(pose));
     poses.shapes.push_back(std::move(pose.vertices));
   };
-  for (size_t i = 0; i < count; ++i) {
-    for (Soup& pose : next(i)) add(std::move(pose));
-  }
+  give(add);
   if (options.mirror != 0 && !mirrored && poses.shapes.size() > 1) {
     poses.warnings.push_back("no pose is a mirror image of " + internal::FileName(first) +
                              ": mirror has no effect");
@@ -277,14 +304,31 @@ std::vector<std::pair<int, int>> ReadStiffeners(const std::string& file, int num
 Poses ReadPoses(const std::vector<std::string>& files, const ReadOptions& options) {
   if (files.empty()) throw FileError("no mesh file is named; at least one is needed");
   return Collect(
-      files.size(), [&](size_t i) { return ReadSoups(files[i], options.allow_outside_files); },
+      [&](const auto& add) {
+        Soup mesh;  // of the point caches that follow it
+        for (size_t i = 0; i < files.size(); ++i) {
+          if (i > 0 && IsPointCache(files[i])) {
+            ForFrames(files[i], mesh, add);
+            continue;
+          }
+          std::vector<Soup> soups = ReadSoups(files[i], options.allow_outside_files);
+          if (i + 1 < files.size() && IsPointCache(files[i + 1])) {
+            mesh = First(std::move(soups));
+          } else {
+            for (Soup& pose : soups) add(std::move(pose));
+          }
+        }
+      },
       options);
 }
 
 Poses MakePoses(std::vector<Soup> soups, const ReadOptions& options) {
   if (soups.empty()) throw MeshError("there is no pose; at least one is needed");
   return Collect(
-      soups.size(), [&](size_t i) { return std::vector<Soup>{std::move(soups[i])}; }, options);
+      [&](const auto& add) {
+        for (Soup& pose : soups) add(std::move(pose));
+      },
+      options);
 }
 
 void TieComponents(Poses* poses) {

@@ -88,6 +88,9 @@ struct ReadOptions {
   /// Take poses that look like mirror images of the first as they are, with a warning: a dome that
   /// is pushed through, a body that is turned inside out.
   bool allow_mirrored = false;
+  /// Take poses as they are, with a warning, whose units or order of vertices seem to be others
+  /// than those of the first: `Severity::kDoubtful`.
+  bool allow_mismatch = false;
 
   /// Leave seams open, where borders of the surface lie on each other in all poses: for lips that
   /// never part. By default their vertices are one point of the surface (`FindSeams`), and a note
@@ -96,7 +99,8 @@ struct ReadOptions {
 };
 
 /// Reads one or more files, with all poses that they have, as poses of the first one's
-/// connectivity.
+/// connectivity. The frames of a point cache (`ReadPointCache`) are poses of the mesh in the file
+/// that is named before it, which lends its faces and is no pose itself.
 /// \throw FileError, MeshError (fatal findings of `CheckSoup`), MismatchError (those of
 ///        `CheckSameMesh`, naming the first difference; DifferentMeshes if their faces differ).
 Poses ReadPoses(const std::vector<std::string>& files, const ReadOptions& options = {});

@@ -13,6 +13,8 @@ enum class Severity {
   kWarning,      ///< usable, but should be checked
   kNonManifold,  ///< refused unless the caller permits it; every metric works on graphs
   kMirrored,     ///< a pose that is refused unless the caller permits it or has it mirrored back
+  kDoubtful,     ///< a pose that is refused unless the caller says that it is right: in other
+                 ///< units, or with its vertices in another order
   kFatal,        ///< not usable
 };
 

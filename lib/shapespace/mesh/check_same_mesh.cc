@@ -301,20 +301,25 @@ class Comparison {
     for (double s : stretch) deviation.push_back(std::abs(s));
     const double factor = std::exp(std::abs(scale - std::log(growth)));
     if (!(factor > kFactor) || Median(deviation) < kSpread) return false;
-    Tell(Severity::kWarning, "vertex-order",
+    Tell(Severity::kDoubtful, "vertex-order",
          "the edges are " + Number(factor) +
              " times as long against the whole as in the reference; most vertices are probably "
              "in another order, although the counts agree: " +
-             kKeepOrder);
+             kKeepOrder + ". If the pose is right, say so by allow_mismatch",
+         "allow_mismatch");
     return true;
   }
 
   void CheckScale(double scale) {
-    constexpr double kOtherUnits = 2.0;
+    // Poses may grow; but centimetres are 10 millimetres, and a foot is 12 inches.
+    constexpr double kOtherUnits = 2.0, kSurelyOtherUnits = 8.0;
     if (std::abs(scale) < std::log(kOtherUnits)) return;
-    Tell(Severity::kWarning, "other-units",
+    const bool surely = std::abs(scale) > std::log(kSurelyOtherUnits);
+    Tell(surely ? Severity::kDoubtful : Severity::kWarning, "other-units",
          "the edges are " + Number(std::exp(scale)) +
-             " times as long as the reference's; if the units differ, scale one of the files");
+             " times as long as the reference's; if the units differ, scale one of the files" +
+             (surely ? ". If the pose is right, say so by allow_mismatch" : ""),
+         surely ? "allow_mismatch" : "");
   }
 
   /// Detects connected vertices at each of which most edges are strongly stretched or shrunk.

@@ -12,12 +12,12 @@
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/extension.h>
 #include <shapespace/base/parallel.h>
+#include <shapespace/files/point_cache.h>
 #include <shapespace/files/write.h>
 #include <shapespace/output/detail/film_times.h>
 #include <shapespace/output/film.h>
 #include <shapespace/output/frames.h>
 #include <shapespace/output/page.h>
-#include <shapespace/output/point_cache.h>
 #include <shapespace/output/vertex_colours.h>
 #include <shapespace/output/vtk.h>
 #include <shapespace/path/path_file.h>
@@ -157,7 +157,7 @@ class Writer {
   // Colours of vertices: of each shape, of all alike, or none.
   std::vector<Eigen::MatrixXd> Colours() {
     if (ByDeviation()) {
-      DeviationColours deviation = ColourByDeviation(path_, options_.reference);
+      ValueColours deviation = ColourByDeviation(path_, options_.reference);
       summary_.colour_end = deviation.scale_end;
       return std::move(deviation.of_shapes);
     }

@@ -16,18 +16,13 @@ Eigen::Vector3d ToSrgb(const internal::Colour& linear) {
 
 }  // namespace
 
-DeviationColours ColourByDeviation(const Path& path, const Shape& reference) {
-  const Shape& rest = reference.cols() > 0 ? reference : path.shapes.at(0);
-  std::vector<Eigen::VectorXd> deviations;
-  for (const Shape& shape : path.shapes) {
-    deviations.push_back(EdgeDeviation(*path.metric, rest, shape));
-  }
-  DeviationColours colours;
-  colours.scale_end = internal::EndOfScale(deviations);
-  for (const Eigen::VectorXd& deviation : deviations) {
-    Eigen::MatrixXd of_shape(3, deviation.size());
-    for (Eigen::Index v = 0; v < deviation.size(); ++v) {
-      const auto value = static_cast<float>(std::min(1.0, deviation[v] / colours.scale_end));
+ValueColours ColourByValue(const std::vector<Eigen::VectorXd>& values) {
+  ValueColours colours;
+  colours.scale_end = internal::EndOfScale(values);
+  for (const Eigen::VectorXd& of_vertices : values) {
+    Eigen::MatrixXd of_shape(3, of_vertices.size());
+    for (Eigen::Index v = 0; v < of_vertices.size(); ++v) {
+      const auto value = static_cast<float>(std::min(1.0, of_vertices[v] / colours.scale_end));
       of_shape.col(v) = ToSrgb(internal::ValueColour(value));
     }
     colours.of_shapes.push_back(std::move(of_shape));
@@ -35,10 +30,31 @@ DeviationColours ColourByDeviation(const Path& path, const Shape& reference) {
   return colours;
 }
 
+ValueColours ColourByDeviation(const Path& path, const Shape& reference) {
+  const Shape& rest = reference.cols() > 0 ? reference : path.shapes.at(0);
+  std::vector<Eigen::VectorXd> deviations;
+  for (const Shape& shape : path.shapes) {
+    deviations.push_back(EdgeDeviation(*path.metric, rest, shape));
+  }
+  return ColourByValue(deviations);
+}
+
 Eigen::MatrixXd ColourByGroup(const Eigen::VectorXi& groups) {
   Eigen::MatrixXd colours(3, groups.size());
   for (Eigen::Index v = 0; v < groups.size(); ++v) {
     colours.col(v) = ToSrgb(internal::GroupColour(groups[v]));
+  }
+  return colours;
+}
+
+Eigen::MatrixXd ColourByBone(const SkinnedPath& path) {
+  Eigen::MatrixXd colours(3, path.weights.cols());
+  for (Eigen::Index v = 0; v < colours.cols(); ++v) {
+    internal::Colour mixed = internal::Colour::Zero();
+    for (Eigen::Index k = 0; k < path.weights.rows(); ++k) {
+      mixed += static_cast<float>(path.weights(k, v)) * internal::GroupColour(path.bones(k, v));
+    }
+    colours.col(v) = ToSrgb(mixed);
   }
   return colours;
 }

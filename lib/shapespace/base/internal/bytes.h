@@ -1,6 +1,7 @@
 #ifndef SHAPESPACE_BASE_INTERNAL_BYTES_H_
 #define SHAPESPACE_BASE_INTERNAL_BYTES_H_
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -43,6 +44,14 @@ T ReadLittleEndian(const char* bytes) {
   T number;
   std::memcpy(&number, &bits, sizeof number);
   return number;
+}
+
+/// The same with the most significant byte first.
+template <typename T>
+T ReadBigEndian(const char* bytes) {
+  char reversed[sizeof(T)];
+  std::reverse_copy(bytes, bytes + sizeof(T), reversed);
+  return ReadLittleEndian<T>(reversed);
 }
 
 }  // namespace shapespace::internal

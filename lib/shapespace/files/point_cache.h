@@ -1,5 +1,5 @@
-#ifndef SHAPESPACE_OUTPUT_POINT_CACHE_H_
-#define SHAPESPACE_OUTPUT_POINT_CACHE_H_
+#ifndef SHAPESPACE_FILES_POINT_CACHE_H_
+#define SHAPESPACE_FILES_POINT_CACHE_H_
 
 #include <string>
 #include <vector>
@@ -12,7 +12,7 @@ namespace shapespace {
 bool IsPointCache(const std::string& file);
 
 /// Writes shapes as a point cache, from which animation programs move the vertices of a mesh that
-/// they have: one shape a frame, positions as given, in single precision. The extension determines
+/// they have: one shape a frame, positions as given, in single precision. The extension tells
 /// the format:
 /// - .pc2 (Blender, 3ds Max, Maya, Houdini): version 1, little-endian; the first frame is 0, and
 ///   there is one sample a frame.
@@ -25,6 +25,18 @@ bool IsPointCache(const std::string& file);
 ///        ten-thousandth of its shape's diagonal.
 void WritePointCache(const std::string& file, const std::vector<Shape>& shapes, double fps = 24);
 
+/// What a point cache holds.
+struct PointCache {
+  std::vector<Shape> shapes;  ///< one a frame, of one number of vertices
+  bool even = true;           ///< whether frames follow each other in equal times; .pc2 always
+};
+
+/// Reads a point cache; its extension tells the format, as above. It has no faces: `ReadPoses`
+/// takes those of the mesh that is named before it. \throw FileError naming file, frame and vertex:
+/// the extension is neither, the file is cut off or
+///        of another kind, has no frames, or a coordinate is not finite.
+PointCache ReadPointCache(const std::string& file);
+
 }  // namespace shapespace
 
-#endif  // SHAPESPACE_OUTPUT_POINT_CACHE_H_
+#endif  // SHAPESPACE_FILES_POINT_CACHE_H_
