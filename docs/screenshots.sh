@@ -31,6 +31,11 @@ cd "$work"
 "$bin/shape-body" quadruped --triangles 5000 --pose stand --output 'lion%d.obj'
 "$bin/shape-view" cat0.obj lion0.obj --output markers.html
 
+# guide/bones.md
+"$bin/shape-interpolate" pose0.obj pose2.obj pose3.obj pose4.obj pose1.obj --shapes 6 \
+  --output bones.glb --bones 20 --bone_color weights
+"$bin/shape-view" bones.glb --output bones.html
+
 # guide/statistics.md
 "$bin/shape-body" quadruped --triangles 3000 --random 8 --seed 1 --proportions long \
   --output 'long%d.obj' --table long.csv

@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include <shapespace/base/error.h>
+#include <shapespace/files/point_cache.h>
 #include <shapespace/output/detail/joint_tracks.h>
 
 #include "output/read_glb.h"
@@ -201,6 +205,18 @@ TEST(ThinnedKeys, KeepsWhatLinearInterpolationNeeds) {
   };
   EXPECT_EQ(internal::ThinnedKeys(11, 1e-9, off), (std::vector<int>{0, 3, 7, 10}));
   EXPECT_EQ(internal::ThinnedKeys(1, 0.1, off), (std::vector<int>{0}));
+}
+
+// For a test of other players: the folder is an environment variable.
+TEST(WriteSkinnedGltfTest, WritesForOtherPlayers) {
+  const char* const folder = std::getenv("SHAPESPACE_PAGE_DIR");
+  if (folder == nullptr) GTEST_SKIP() << "SHAPESPACE_PAGE_DIR is not set";
+  const SkinnedPath path = SkinnedSphere(10, true);
+  WriteSkinnedGltf(folder + std::string("/skinned.glb"), path, Once());
+  std::vector<Shape> shapes;
+  for (int i = 0; i < path.NumShapes(); ++i) shapes.push_back(path.Skinned(i));
+  WritePointCache(folder + std::string("/skinned.pc2"), shapes);
+  EXPECT_EQ(ReadPointCache(folder + std::string("/skinned.pc2")).shapes.size(), shapes.size());
 }
 
 }  // namespace

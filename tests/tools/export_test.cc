@@ -45,6 +45,13 @@ TEST_F(ExportTest, TakesMeshesAsTheFramesOfAMotion) {
     const Shape again = Vertices("again" + std::to_string(i) + ".ply");
     EXPECT_LT((again - frame).norm(), 1e-12 * frame.norm());
   }
+  // The point cache holds the same frames, and the mesh before it is none of them.
+  Succeed("shape-export", {"solved2.ply", "again.pc2", "--output", "cached%d.ply"});
+  for (int i = 0; i < 5; ++i) {
+    const Shape frame = Vertices(frames[i]);
+    const Shape cached = Vertices("cached" + std::to_string(i) + ".ply");
+    EXPECT_LT((cached - frame).norm(), 1e-6 * frame.norm());
+  }
   arguments = frames;
   arguments.insert(arguments.end(), {"--at", "0.25", "--output", "second.ply"});
   Succeed("shape-export", arguments);
@@ -100,6 +107,22 @@ TEST_F(ExportTest, WritesBonesInsteadOfMorphTargets) {
     EXPECT_GT(now, bytes);
     bytes = now;
   }
+  // Colours show weights or errors; parts take the place of neither.
+  Succeed("shape-export", {"walk.path", "--bones", "4", "--output", "plain.glb"});
+  ExpectLacks(Content(Path("plain.glb")), "COLOR_0");
+  for (const char* shown : {"weights", "error"}) {
+    Succeed("shape-export",
+            {"walk.path", "--bones", "4", "--bone_color", shown, "--output", "shown.glb"});
+    ExpectContains(Content(Path("shown.glb")), "COLOR_0");
+  }
+  // Any shape may be the rest pose.
+  Succeed("shape-export",
+          {"walk.path", "--bones", "4", "--bone_rest", "4", "--output", "last.glb"});
+  EXPECT_NE(Content(Path("last.glb")), Content(Path("plain.glb")));
+  ExpectContains(
+      Run("shape-export", {"walk.path", "--bones", "4", "--bone_rest", "5", "--output", "none.glb"})
+          .err,
+      "--bone_rest");
   // A solve writes bones too.
   Succeed("shape-interpolate", {"tube0.obj", "tube1.obj", "--shapes", "3", "--bones", "4",
                                 "--bone_scale", "--output", "solved.glb"});
@@ -123,6 +146,10 @@ TEST_F(ExportTest, RefusesBonesThatItCannotMake) {
   refuses({"--bones", "auto", "--bone_error", "100%", "--output", "a.glb"}, "--bone_error 100%");
   refuses({"--bones", "auto", "--bone_error", "1,2", "--output", "a.glb"}, "--bone_error");
   refuses({"--bone_scale", "--output", "a.glb"}, "--bones");
+  refuses({"--bone_color", "error", "--output", "a.glb"}, "--bones");
+  refuses({"--bones", "5", "--bone_color", "red", "--output", "a.glb"}, "--bone_color");
+  refuses({"--bones", "5", "--bone_color", "error", "--color", "parts", "--output", "a.glb"},
+          "--color");
   refuses({"--bones", "5", "--bone_weights", "9", "--output", "a.glb"}, "--bone_weights 9");
   refuses({"--bones", "5", "--color", "deviation", "--output", "a.glb"}, "--color");
 }

@@ -33,7 +33,7 @@ TEST_F(FormatsTest, MorphTargetsArePoses) {
   const Outcome outcome =
       Run("shape-interpolate", {"walk.glb", "--shapes", "1", "--output", "finer.path"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  ExpectContains(outcome.out, "5 poses, 1 shapes inserted");
+  ExpectContains(outcome.out, "5 poses, 1 shape inserted");
   const std::vector<Shape> walk = Shapes("walk.path"), finer = Shapes("finer.path");
   ASSERT_EQ(finer.size(), 9u);
   const double size = walk[0].cwiseAbs().maxCoeff();

@@ -94,10 +94,13 @@ TEST_F(HelpTest, ListsOurFlagsOnly) {
                                         "metric",  "rigid",          "stiffness", "strain",
                                         "volume",  "weighting"};
   std::set<std::string> wanted = metric;
-  wanted.insert({"allow_mirrored", "allow_nonmanifold", "allow_outside_files", "help", "help-all",
-                 "mirror", "open_seams", "progress", "report", "threads", "version"});
+  wanted.insert({"allow_mirrored", "allow_mismatch", "allow_nonmanifold", "allow_outside_files",
+                 "help", "help-all", "mirror", "open_seams", "progress", "report", "threads",
+                 "version"});
   EXPECT_EQ(Listed("shape-inspect"), wanted);
-  wanted.insert({"bone_error",
+  wanted.insert({"bone_color",
+                 "bone_error",
+                 "bone_rest",
                  "bone_scale",
                  "bone_weights",
                  "bones",

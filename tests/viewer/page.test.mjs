@@ -351,6 +351,17 @@ describe('a path', () => {
     });
   });
 
+  test('of a glb with bones moves, and shows them', async () => {
+    await open('bones-glb', {}, async (page) => {
+      await assertChanges(page, () => setTime(page, 0.5));
+      await assertChanges(page, () => page.locator('#bones').check());
+      await assertChanges(page, () => setTime(page, 0.1));
+    });
+    await open('walk-glb', {}, async (page) => {
+      assert.equal(await page.locator('#bones').isVisible(), false);
+    });
+  });
+
   test('of a graph is drawn as lines', async () => {
     for (const name of ['graph-path', 'graph-glb']) {
       await open(name, {}, async (page) => {

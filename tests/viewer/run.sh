@@ -15,7 +15,7 @@ if ! command -v chromium >/dev/null; then
   apt-get -q update && apt-get -q install -y --no-install-recommends chromium
 fi
 npm install --silent --no-fund --no-audit --prefix "$work" \
-  playwright-core@1.55.0 gltf-validator@2.0.0-dev.3.10
+  playwright-core@1.55.0 gltf-validator@2.0.0-dev.3.10 three@0.180.0
 cp "$here"/*.mjs "$work"
 
 if (($# > 0)); then
@@ -49,7 +49,8 @@ EOF
       $((height - 1)) $((height + 1)) $((height + 1))
   done | split --lines=8 --numeric-suffixes --suffix-length=1 --additional-suffix=.obj - pierced
   "$bin/shape-interpolate" pierced0.obj pierced1.obj --shapes 3 --output pierced.path
-  for file in walk.path walk.glb pierced.path graph.path graph.glb skin.glb; do
+  "$bin/shape-export" walk.path --bones 8 --output bones.glb
+  for file in walk.path walk.glb bones.glb pierced.path graph.path graph.glb skin.glb; do
     "$bin/shape-view" $file --output "${file/./-}.html"
   done
   "$bin/shape-view" walk.path rigid.path --output two.html
@@ -73,9 +74,9 @@ EOF
   "$bin/shape-body" quadruped --pose stride --proportions heavy --triangles 4000 --output 'other%d.obj'
   "$bin/shape-correspond" 'small cat/body0.obj' other0.obj --output fit.html --markers_out found.txt
   SHAPESPACE_PAGE_DIR=$PWD SHAPESPACE_PAGE_TEMPLATE=$root/tools/viewer/dist/viewer.html \
-    "$root/build/release/tests/output/output_test" --gtest_filter='PageTest.WritesSpaces*'
+    "$root/build/release/tests/output/output_test" --gtest_filter='*WritesSpaces*:*WritesForOther*'
   cp "$root/tools/viewer/dist/viewer.html" empty.html
 } >"$work/log" 2>&1
 trap - ERR
 cd "$work"
-SHAPESPACE_PAGE_DIR=$work/pages SHAPESPACE_PAGE_BIN=$bin node --test page.test.mjs explained.test.mjs
+SHAPESPACE_PAGE_DIR=$work/pages SHAPESPACE_PAGE_BIN=$bin node --test page.test.mjs explained.test.mjs skinned.test.mjs

@@ -220,13 +220,14 @@ export async function decodeScene(text: string): Promise<SceneData> {
   };
   const predict = predictions[header.kind]();
   readPositions(reader, shapes, vertices, predict);
-  let ofPath: Pick<PathScene, 'energies' | 'partColours' | 'intersections'> | undefined;
+  let ofPath: Pick<PathScene, 'energies' | 'partColours' | 'intersections' | 'skeleton'> | undefined;
   if (header.kind === 'path') {
     readDeviations(reader, shapes, vertices);
     ofPath = {
       energies: header.energyEnd === null ? [] : readShades(reader, header.shapes, vertices),
       partColours: header.parts > 0 ? reader.take(3 * vertices) : null,
       intersections: header.intersections && readIntersections(reader, header.intersections, vertices),
+      skeleton: null,
     };
   }
   const colours = header.colours ? reader.take(3 * vertices) : null;

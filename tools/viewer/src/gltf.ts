@@ -5,6 +5,7 @@ import {
   LineSegments,
   Mesh,
   MeshStandardMaterial,
+  SkinnedMesh,
   Vector3,
   type AnimationClip,
   type Object3D,
@@ -13,6 +14,7 @@ import { GLTFLoader, type GLTF } from 'three/addons/loaders/GLTFLoader.js';
 import { bytesFromBase64 } from './decode';
 import { measureDeviations } from './deviation';
 import { Damaged, type Body, type PathScene, type Skin } from './scene_data';
+import { jointsIn } from './skeleton';
 
 /** An animation with more keyframes is sampled at this number of evenly spaced moments. */
 const mostShapes = 64;
@@ -28,11 +30,12 @@ function drawnIn(root: Object3D): Drawn[] {
   return drawn.filter((object) => object instanceof Mesh === hasTriangles);
 }
 
-function momentsOf(clip: AnimationClip | undefined): number[] {
+/** Between the keys of morph targets vertices move along lines, between those of bones on arcs. */
+function momentsOf(clip: AnimationClip | undefined, hasBones: boolean): number[] {
   if (!clip || clip.duration === 0) return [0];
   const keys = [...new Set(clip.tracks.flatMap((track) => [...track.times]))];
   keys.sort((a, b) => a - b);
-  if (keys.length >= 2 && keys.length <= mostShapes) return keys;
+  if (!hasBones && keys.length >= 2 && keys.length <= mostShapes) return keys;
   return Array.from({ length: mostShapes }, (_, i) => (i / (mostShapes - 1)) * clip.duration);
 }
 
@@ -45,8 +48,9 @@ function positionsNow(drawn: Drawn[], vertices: number): Float64Array {
   let at = 0;
   for (const object of drawn) {
     const count = object.geometry.getAttribute('position').count;
+    const read = object instanceof Mesh ? object.getVertexPosition : getVertexPosition;
     for (let v = 0; v < count; ++v, at += 3) {
-      getVertexPosition.call(object as Mesh, v, point).applyMatrix4(object.matrixWorld).toArray(positions, at);
+      read.call(object as Mesh, v, point).applyMatrix4(object.matrixWorld).toArray(positions, at);
     }
   }
   return positions;
@@ -135,14 +139,22 @@ function toPath(name: string, { scene, animations }: GLTF): PathScene {
   if (vertices === 0) throw new Damaged('it holds nothing to draw');
   const mixer = new AnimationMixer(scene);
   if (animations.length > 0) mixer.clipAction(animations[0]).play();
-  const moments = momentsOf(animations[0]);
+  const { joints, parents } = jointsIn(scene);
+  const hasBones = drawn.some((object) => object instanceof SkinnedMesh);
+  const moments = momentsOf(animations[0], hasBones);
+  const ofJoints: Vector3[][] = [];
   const shapes = moments.map((moment) => {
     // Not quite the end of the animation, at which a clip that repeats is at its start again.
     mixer.setTime(Math.min(moment, (animations[0]?.duration ?? 0) * (1 - 1e-6)));
     scene.updateMatrixWorld(true);
+    ofJoints.push(joints.map((joint) => joint.getWorldPosition(new Vector3())));
     return positionsNow(drawn, vertices);
   });
   const { low, side } = cubeAround(shapes);
+  const corner = new Vector3().fromArray(low);
+  const places = ofJoints.map((points) =>
+    Float32Array.from(points.flatMap((point) => point.sub(corner).divideScalar(side || 1).toArray())),
+  );
   const isGraph = !(drawn[0] instanceof Mesh);
   const indices = indicesOf(drawn);
   const body: Body = {
@@ -174,6 +186,7 @@ function toPath(name: string, { scene, animations }: GLTF): PathScene {
     energies: [],
     partColours: null,
     intersections: null,
+    skeleton: hasBones ? { parents, places } : null,
   };
 }
 

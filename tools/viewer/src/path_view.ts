@@ -12,6 +12,7 @@ import { Plot, type Series } from './plots';
 import { markPoses } from './pose_marks';
 import { markGradient, rampGradient } from './ramp';
 import type { PathScene } from './scene_data';
+import { Bones } from './skeleton';
 import { Stage } from './stage';
 import { onTheme } from './theme';
 import { setRepeat, startTransport } from './transport';
@@ -41,6 +42,22 @@ function offerGhosts(scenes: PathScene[], meshes: BlendedMesh[], stage: Stage): 
     for (const group of ghosts) group.visible = on;
     stage.draw();
   });
+}
+
+/** The bones, where there are any. Returns what is to be called when another shape is shown. */
+function offerBones(scenes: PathScene[], meshes: BlendedMesh[], stage: Stage): (place: number) => void {
+  const all = scenes.map(({ skeleton }) => (skeleton ? new Bones(skeleton) : null));
+  byId('bones-option').hidden = all.every((bones) => bones === null);
+  all.forEach((bones, i) => {
+    if (!bones) return;
+    bones.visible = false;
+    meshes[i].add(bones);
+  });
+  box('bones', false, (on) => {
+    for (const bones of all) if (bones) bones.visible = on;
+    stage.draw();
+  });
+  return (place) => all.forEach((bones, i) => bones?.show(blendAt(scenes[i], place)));
 }
 
 function showLegend(title: string, colours: string, start: string, end: string): void {
@@ -170,11 +187,13 @@ export function showPaths(scenes: PathScene[]): void {
     player.advance(seconds),
   );
   const showFigures = showColours(scenes, meshes, stage);
+  const showBones = offerBones(scenes, meshes, stage);
   let plots: Plot[] = [];
   const player = startTransport(
     (place) => {
       meshes.forEach((mesh, i) => mesh.show(blendAt(scenes[i], place)));
       for (const plot of plots) plot.show(place);
+      showBones(place);
       showFigures();
       stage.draw();
     },

@@ -10,6 +10,14 @@ export interface Skin {
   parts: { start: number; count: number; map: Texture | null }[];
 }
 
+/** The bones of a glb. */
+export interface Skeleton {
+  /** The joint above each joint, which comes before it; -1 if there is none. */
+  parents: number[];
+  /** Of each shape three numbers a joint: its place in the cube, whose side is 1. */
+  places: Float32Array[];
+}
+
 /** What all shapes of a scene share, and the shapes. */
 export interface Body {
   name: string;
@@ -61,6 +69,8 @@ export interface PathScene extends Body {
   /** For each shape the number of pairs of triangles that intersect, and the vertices of these
    * triangles; null where it is not known. */
   intersections: { pairs: number; vertices: Uint32Array }[] | null;
+  /** The bones that a glb has; null without. */
+  skeleton: Skeleton | null;
 }
 
 export interface SpaceScene extends Body {
