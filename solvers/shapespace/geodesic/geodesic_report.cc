@@ -24,15 +24,15 @@ std::string EdgesText(double rms, double p99, double max) {
 std::string GeodesicSummary::BriefReport() const {
   // The bound of poses that are nearly rigid copies says nothing of a way past an obstacle.
   constexpr double kLargest = 1e6;
-  std::string ratio = Ratio() < kLargest ? Format("%.4f", Ratio()) : "n/a";
-  return Format(
-             "%s: %d vertices, %d poses, %d shapes inserted; energy %.6g, %s of its lower bound; ",
-             Name(termination), vertices, poses, shapes, energy, ratio.c_str()) +
+  const std::string ratio =
+      Ratio() < kLargest ? Format("%.4f of its lower bound", Ratio()) : "without a lower bound";
+  return Format("%s: %d vertices, %d poses, %d %s inserted; energy %.6g, %s; ", Name(termination),
+                vertices, poses, shapes, shapes == 1 ? "shape" : "shapes", energy, ratio.c_str()) +
          "edges off by " +
          IfComputed(quality.edge_rms, Format("%.3g%% rms", 100 * quality.edge_rms)) +
          ", roughness " + IfComputed(quality.roughness, Format("%.3g degrees", quality.roughness)) +
          ", " + IfComputed(quality.folds, Format("%.3g", quality.folds)) +
-         Format(" folds; %.2f s", total_seconds);
+         Format(" folds a shape; %.2f s", total_seconds);
 }
 
 std::string GeodesicSummary::FullReport() const {
