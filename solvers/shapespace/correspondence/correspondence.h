@@ -100,7 +100,12 @@ struct CorrespondenceSummary {
     double isometry = kNotComputed;   ///< mean relative change of distances along the surface
     double curvature = kNotComputed;  ///< mean difference of mean curvatures, at most 1 each
     double heat = kNotComputed;       ///< mean difference of heat kernels: of what is near
-    double cost = kNotComputed;       ///< the product of these four; the least is chosen
+    /// The deformation of the target by a fit onto the template with the same markers: of maps that
+    /// cost little more than the cheapest; NaN of others.
+    double reverse = kNotComputed;
+    /// The product of these four, and of `reverse` as a share of that of the map that would be the
+    /// cheapest without it. The least is chosen.
+    double cost = kNotComputed;
     bool chosen = false;
   };
 

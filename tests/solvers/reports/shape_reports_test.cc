@@ -134,7 +134,7 @@ TEST(Golden, Correspondences) {
   summary.cancelled = true;
   text.Variant("cancelled", TextsOf(summary));
   summary = CorrespondenceOfNumbers();
-  summary.candidates = {{0.75, 40, 0.25, 0.0625, 0.125, 0.375, 0.00073242, true}, {}};
+  summary.candidates = {{0.75, 40, 0.25, 0.0625, 0.125, 0.375, 0.875, 0.00073242, true}, {}};
   summary.candidates[1].orientation = 0.625;
   summary.candidates[1].markers = 39;
   summary.template_extremities = 5;

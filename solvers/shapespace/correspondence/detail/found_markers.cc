@@ -68,12 +68,21 @@ CoarseBody Coarsen(const FitBody& whole, int triangles,
 // A candidate's fit, and how unlike the bodies are where it joins them.
 struct CandidateFit {
   MapCandidate candidate;
+  size_t row = 0;              // of the summary's candidates
   std::vector<int> to_target;  // of each vertex of the coarse template
   double deformation = kNotComputed;
   MapFigures figures;
+  double reverse = 1;  // the deformation of the target by the reverse fit, as a share of that with
+                       // the cheapest map; 1 if there is no such fit
 
-  double Cost() const { return deformation * figures.Cost(); }
+  double Cost() const { return deformation * figures.Cost() * reverse; }
 };
+
+// How unlike what was fitted has become to itself.
+double Deformation(const SmoothStretch& stretch, const OwnFrame& frame,
+                   const CorrespondenceResult& fit) {
+  return stretch.Cost(frame.In(fit.fitted)) + fit.summary.uncovered + fit.summary.turned;
+}
 
 class Finder {
  public:
@@ -168,15 +177,14 @@ class Finder {
         if (result.summary.cancelled) throw Cancelled();
         CandidateFit& fit = fits[i].emplace();
         fit.candidate = candidate;
+        fit.row = i;
         fit.to_target = NearestCorners(result.map.to_target, *target_.connectivity);
-        fit.deformation = stretch.Cost(target_.frame.In(result.fitted)) + result.summary.uncovered +
-                          result.summary.turned;
+        fit.deformation = Deformation(stretch, target_.frame, result);
         fit.figures = matcher_.Compare(coarse.vertices, fit.to_target);
         rows_[i].deformation = fit.deformation;
         rows_[i].isometry = fit.figures.isometry;
         rows_[i].curvature = fit.figures.curvature;
         rows_[i].heat = fit.figures.heat;
-        rows_[i].cost = fit.Cost();
       } catch (const MeshError& error) {
         problems[i] = error.what();  // its markers contradict each other
       }
@@ -185,11 +193,51 @@ class Finder {
       if (fit) fits_.push_back(std::move(*fit));
     }
     if (fits_.empty()) throw MeshError(problems.front());
+    CheapestFirst();
+    FitReverse();
+    for (const CandidateFit& fit : fits_) rows_[fit.row].cost = fit.Cost();
+    rows_[fits_[0].row].chosen = true;
+    FindParts(coarse);
+  }
+
+  void CheapestFirst() {
     std::stable_sort(fits_.begin(), fits_.end(), [](const CandidateFit& a, const CandidateFit& b) {
       return a.Cost() < b.Cost();
     });
-    for (CorrespondenceSummary::Candidate& row : rows_) row.chosen = row.cost == fits_[0].Cost();
-    FindParts(coarse);
+  }
+
+  // Where several maps cost nearly the same, the target is fitted onto the template with each of
+  // them too: a wrong map that is cheap in one direction seldom is in the other.
+  void FitReverse() {
+    const auto end = std::find_if(fits_.begin(), fits_.end(), [&](const CandidateFit& fit) {
+      return fit.Cost() > kDoubt * fits_[0].Cost();
+    });
+    const auto count = static_cast<int>(end - fits_.begin());
+    if (count < 2) return;
+    std::vector<std::vector<CorrespondenceMarker>> reversed;
+    std::vector<CorrespondenceMarker> all;
+    for (int i = 0; i < count; ++i) {
+      reversed.push_back(Markers(fits_[i].candidate.markers));
+      for (CorrespondenceMarker& marker : reversed[i]) {
+        std::swap(marker.template_vertex, marker.target_vertex);
+      }
+      all.insert(all.end(), reversed[i].begin(), reversed[i].end());
+    }
+    const CoarseBody coarse = Coarsen(target_, options_.coarsest, all);
+    const SmoothStretch stretch(coarse.body.connectivity, coarse.body.own, options_.proportions);
+    std::vector<double> deformations(count);
+    TaskGroup(progress_, "the reverse", count).RunAll(count, [&](int i, Progress* own) {
+      const CorrespondenceResult result =
+          FitWithMarkers(coarse.body, from_, coarse.Own(reversed[i]), given_.size(), options_,
+                         begun_, Folds::kKeep, own);
+      if (result.summary.cancelled) throw Cancelled();
+      deformations[i] = Deformation(stretch, from_.frame, result);
+    });
+    for (int i = 0; i < count; ++i) {
+      fits_[i].reverse = deformations[i] / deformations[0];
+      rows_[fits_[i].row].reverse = deformations[i];
+    }
+    CheapestFirst();
   }
 
   // How far apart two fits send a vertex of the coarse template.

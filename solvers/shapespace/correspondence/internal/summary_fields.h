@@ -36,6 +36,7 @@ void ForFields(Of<CorrespondenceSummary::Candidate>, const Visit& visit) {
   visit("isometry", &CorrespondenceSummary::Candidate::isometry);
   visit("curvature", &CorrespondenceSummary::Candidate::curvature);
   visit("heat", &CorrespondenceSummary::Candidate::heat);
+  visit("reverse", &CorrespondenceSummary::Candidate::reverse);
   visit("cost", &CorrespondenceSummary::Candidate::cost);
   visit("chosen", &CorrespondenceSummary::Candidate::chosen);
 }
