@@ -20,6 +20,7 @@
 #include "support/files.h"
 #include "support/flag_group.h"
 #include "support/open_page.h"
+#include "support/outside_files_flag.h"
 #include "support/tool.h"
 #include "viewer/page.h"
 
@@ -116,7 +117,7 @@ void Run(const std::vector<std::string>& files) {
     const std::string name = NameOf(file, files);
     if (internal::FileExtension(file) == ".path") {
       paths.push_back(ReadPathAndTell(file));
-      scenes.push_back(PagePath{&paths.back(), name, file});
+      scenes.push_back(PagePath{&paths.back(), name, file, FLAGS_allow_outside_files});
     } else if (internal::FileExtension(file) == ".space") {
       scenes.push_back(PageOf(ReadSpace(file), name));
     } else if (IsMesh(internal::FileExtension(file))) {
@@ -126,7 +127,9 @@ void Run(const std::vector<std::string>& files) {
       CheckIsGlb(file, std::get<PageGlb>(scenes.back()).bytes);
     }
   }
-  WritePage(output, std::string(ViewerPage()), scenes, view);
+  std::vector<std::string> warnings;
+  WritePage(output, std::string(ViewerPage()), scenes, view, &warnings);
+  for (const std::string& warning : warnings) Warn(output, ": ", warning);
   Out() << "wrote " << output << (FLAGS_open ? "" : "; open it in a browser, or give --open")
         << '\n';
   if (FLAGS_open) OpenPage(output);
@@ -147,6 +150,6 @@ int main(int argc, char** argv) {
   shape-view poses.space --output poses.html                shapes at points of a plane
   shape-view cat.obj --up -x                                pick handles and selections
   shape-view cat.obj lion.obj --output markers.html         pick markers on both)",
-       {"view", "camera"}},
+       {"view", "camera", "outside_files"}},
       Run);
 }

@@ -2,6 +2,7 @@
 #define TESTS_OUTPUT_READ_PAGE_H_
 
 #include <cstdint>
+#include <cstring>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -78,6 +79,7 @@ class DecodedScene {
       if (!header["intersections"].is_null()) ReadIntersections();
     }
     if (header["colours"]) colours = Take(3 * vertices);
+    if (header["kind"] == "path" && !header["textures"].is_null()) ReadTextures();
     if (at_ != bytes_.size()) throw std::runtime_error("bytes are left over");
   }
 
@@ -96,6 +98,10 @@ class DecodedScene {
   std::vector<Eigen::VectorXi> shades, energy_shades;  ///< of deviations and energies
   std::string colours, part_colours;
   std::vector<std::vector<int>> intersecting;  ///< vertices of each shape
+
+  std::vector<int> drawn_source, drawn_corners;  ///< of a textured surface as it is drawn
+  Eigen::Matrix2Xf texture_coordinates;
+  std::vector<std::string> images;
 
  private:
   unsigned Byte(size_t at) const { return static_cast<unsigned char>(bytes_.at(at)); }
@@ -145,6 +151,24 @@ class DecodedScene {
       end += shape["vertices"].get<int>();
       intersecting.emplace_back(begin, end);
     }
+  }
+
+  void ReadTextures() {
+    const nlohmann::json& textures = header["textures"];
+    const int count = textures["vertices"];
+    int corners = 0;
+    for (const nlohmann::json& part : textures["parts"])
+      corners += 3 * part["triangles"].get<int>();
+    drawn_source = Indices(count);
+    drawn_corners = Indices(corners);
+    texture_coordinates.resize(2, count);
+    for (int axis = 0; axis < 2; ++axis) {
+      const std::vector<int> bits = Indices(count);
+      for (int v = 0; v < count; ++v) {
+        std::memcpy(&texture_coordinates(axis, v), &bits[v], sizeof(float));
+      }
+    }
+    for (const nlohmann::json& image : textures["images"]) images.push_back(Take(image["bytes"]));
   }
 
   int Predicted(int s, int axis, int v) const {

@@ -82,8 +82,8 @@ TEST_F(HelpTest, ListsOurFlagsOnly) {
       (std::set<std::string>{"at", "help", "help-all", "output", "pose", "progress", "proportions",
                              "random", "seed", "table", "threads", "triangles", "version"}));
   EXPECT_EQ(Listed("shape-view"),
-            (std::set<std::string>{"help", "help-all", "open", "output", "progress", "threads",
-                                   "up", "version", "view"}));
+            (std::set<std::string>{"allow_outside_files", "help", "help-all", "open", "output",
+                                   "progress", "threads", "up", "version", "view"}));
   EXPECT_EQ(
       Listed("shape-correspond"),
       (std::set<std::string>{"allow_nonmanifold", "allow_outside_files", "find_markers", "help",

@@ -330,16 +330,38 @@ describe('a path', () => {
     }
   });
 
-  test('of a glb has its textures', async () => {
-    await open('skin-glb', {}, async (page) => {
+  for (const kind of ['glb', 'path']) {
+    test(`of a ${kind} has its textures`, async () => {
+      await open(`skin-${kind}`, {}, async (page) => {
+        await setTime(page, 0.1);
+        const [red, blue] = await redAndBlue(page, await look(page));
+        assert.ok(red > 0.01 && blue > 0.01, `${red} of it is red, ${blue} blue`);
+        await page.locator('#colour').selectOption('deviation');
+        assert.equal((await redAndBlue(page, await look(page)))[1], 0);
+        await page.locator('#colour').selectOption('plain');
+        const again = await redAndBlue(page, await look(page));
+        assert.ok(Math.abs(again[0] - red) < 0.01 && Math.abs(again[1] - blue) < 0.01);
+      });
+    });
+  }
+
+  // Halves of a square with parts of their own of a texture, so that the surface is cut between them.
+  test('of a path is cut where its texture has seams, and nowhere else', async () => {
+    await open('seam-path', {}, async (page) => {
       await setTime(page, 0.1);
       const [red, blue] = await redAndBlue(page, await look(page));
-      assert.ok(red > 0.01 && blue > 0.01, `${red} of it is red, ${blue} blue`);
-      await page.locator('#colour').selectOption('deviation');
-      assert.equal((await redAndBlue(page, await look(page)))[1], 0);
+      assert.ok(red > 0.01 && Math.abs(red - blue) < 0.1 * red, `${red} is red, ${blue} blue`);
+      await assertChanges(page, () => setTime(page, 0.9));
+      await assertChanges(page, () => page.locator('#colour').selectOption('deviation'));
       await page.locator('#colour').selectOption('plain');
-      const again = await redAndBlue(page, await look(page));
-      assert.ok(Math.abs(again[0] - red) < 0.01 && Math.abs(again[1] - blue) < 0.01);
+      assert.ok((await redAndBlue(page, await look(page)))[1] > 0.01);
+    });
+  });
+
+  test('says so if its image is damaged, and shows all else', async () => {
+    await open('damaged-skin', {}, async (page) => {
+      assert.match(await page.locator('#status').textContent(), /texture/);
+      await assertChanges(page, () => setTime(page, 0.9));
     });
   });
 

@@ -42,7 +42,17 @@ trap 'cat "$work/log" >&3' ERR
   base64 -d >skin.png <<'EOF'
 iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAIAAAB7QOjdAAAADUlEQVR4nGP4zwAE/wEHAAH/4iOeWQAAAABJRU5ErkJggg==
 EOF
-  "$bin/shape-interpolate" skin0.obj skin1.obj --shapes 3 --output skin.glb
+  "$bin/shape-interpolate" skin0.obj skin1.obj --shapes 3 --output skin.glb,skin.path
+  # The same, each triangle all of one colour.
+  for height in 0 1; do
+    printf 'mtllib skin.mtl\nv 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 %s 1\n' $height
+    printf 'vt .2 .5\nvt .8 .5\nusemtl skin\nf 3/1 2/1 1/1\nf 4/2 3/2 1/2\n'
+  done | split --lines=10 --numeric-suffixes --suffix-length=1 --additional-suffix=.obj - seam
+  "$bin/shape-interpolate" seam0.obj seam1.obj --shapes 3 --output seam.path
+  head --bytes=40 skin.png >half.png
+  sed s/skin.png/half.png/ skin.mtl >half.mtl
+  sed s/skin.mtl/half.mtl/ seam0.obj >half0.obj
+  "$bin/shape-interpolate" half0.obj seam1.obj --shapes 3 --output damaged-skin.html
   # A triangle that in one pose passes through another, and in the other pose is above it.
   for height in 0 3; do
     printf 'v 0 0 0\nv 4 0 0\nv 0 0 4\nv 1 %s 1\nv 2 %s 1\nv 1 %s 2\nf 1 3 2\nf 4 5 6\n' \
@@ -50,7 +60,8 @@ EOF
   done | split --lines=8 --numeric-suffixes --suffix-length=1 --additional-suffix=.obj - pierced
   "$bin/shape-interpolate" pierced0.obj pierced1.obj --shapes 3 --output pierced.path
   "$bin/shape-export" walk.path --bones 8 --output bones.glb
-  for file in walk.path walk.glb bones.glb pierced.path graph.path graph.glb skin.glb; do
+  for file in walk.path walk.glb bones.glb pierced.path graph.path graph.glb skin.glb skin.path \
+    seam.path; do
     "$bin/shape-view" $file --output "${file/./-}.html"
   done
   "$bin/shape-view" walk.path rigid.path --output two.html

@@ -157,7 +157,7 @@ void Write(const PathOutput& output, const Path& path, const PathOutputOptions& 
   }
   const PathOutputSummary summary = WritePathOutput(output, path, options);
   for (const std::string& warning : summary.warnings) {
-    if (output.kind == Kind::kGltf) {
+    if (output.kind == Kind::kGltf || output.kind == Kind::kPage) {
       Warn(output.file, ": ", warning);
     } else {
       Note(output.file, ": ", warning);

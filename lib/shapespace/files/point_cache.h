@@ -32,8 +32,8 @@ struct PointCache {
 };
 
 /// Reads a point cache; its extension tells the format, as above. It has no faces: `ReadPoses`
-/// takes those of the mesh that is named before it. \throw FileError naming file, frame and vertex:
-/// the extension is neither, the file is cut off or
+/// takes those of the mesh that is named before it.
+/// \throw FileError naming file, frame and vertex: the extension is neither, the file is cut off or
 ///        of another kind, has no frames, or a coordinate is not finite.
 PointCache ReadPointCache(const std::string& file);
 

@@ -51,9 +51,11 @@ std::string Element(const std::string& type, const std::string& name, const std:
 
 struct MakeElement {
   const PageView& view;
+  std::vector<std::string>* warnings;
 
   std::string operator()(const PagePath& path) const {
-    return Element("application/x-shapespace", path.name, internal::EncodeScene(path, view));
+    return Element("application/x-shapespace", path.name,
+                   internal::EncodeScene(path, view, warnings));
   }
   std::string operator()(const PageSpace& space) const {
     return Element("application/x-shapespace", space.name, internal::EncodeScene(space, view));
@@ -80,7 +82,7 @@ void PageView::Validate() const {
 }
 
 std::string MakePage(const std::string& page_template, const std::vector<PageScene>& scenes,
-                     const PageView& view) {
+                     const PageView& view, std::vector<std::string>* warnings) {
   view.Validate();
   if (scenes.empty() || scenes.size() > 2)
     throw InvalidOptions("scenes", "there must be one or two");
@@ -99,13 +101,16 @@ std::string MakePage(const std::string& page_template, const std::vector<PageSce
     throw InvalidOptions("page_template", "is not the viewer that ./dev viewer builds");
   }
   std::string page = page_template.substr(0, mark);
-  for (const PageScene& scene : scenes) page += std::visit(MakeElement{view}, scene);
+  std::vector<std::string> found;
+  for (const PageScene& scene : scenes) page += std::visit(MakeElement{view, &found}, scene);
+  if (warnings != nullptr) warnings->insert(warnings->end(), found.begin(), found.end());
   return page.append(page_template, mark + sizeof kMark - 1);
 }
 
 void WritePage(const std::string& file, const std::string& page_template,
-               const std::vector<PageScene>& scenes, const PageView& view) {
-  const std::string page = MakePage(page_template, scenes, view);
+               const std::vector<PageScene>& scenes, const PageView& view,
+               std::vector<std::string>* warnings) {
+  const std::string page = MakePage(page_template, scenes, view, warnings);
   internal::WriteFileAtomically(file, [&](std::ostream& out) { out << page; });
 }
 

@@ -17,12 +17,15 @@ namespace shapespace {
 
 /// A path on a page: the shapes as placed by the path, the deviation of each shape's edges from the
 /// first shape, the energy of each segment and at each vertex, near-rigid parts, and the triangles
-/// that intersect. Vertex colours are shown, materials and textures are not; transparent surfaces
-/// are drawn opaque.
+/// that intersect. Vertex colours and textures are shown, the colours of materials only beside
+/// textures; transparent surfaces are drawn opaque.
 struct PagePath {
   const Path* path = nullptr;  ///< must outlive the call
   std::string name;            ///< its name on the page, such as the file's
   std::string file = {};       ///< with its folder, for command lines on the page; empty: none
+  /// Whether material libraries and textures are also read from outside of
+  /// `Appearance::own_folder`.
+  bool allow_outside_files = false;
 };
 
 /// A binary glTF file, embedded unchanged. The page samples its first animation.
@@ -115,15 +118,17 @@ using PageScene = std::variant<PagePath, PageGlb, PageSpace, PageModes, PageMesh
 /// Positions are relative to the box around all shapes of a scene and rounded to 1/65535 of its
 /// longest side, so that accuracy does not depend on the distance from the origin;
 /// docs/file-formats.md describes the encoding. `view` is that of all scenes but glb files.
+/// Sentences about textures that cannot be shown are appended to `warnings`, which may be null.
 /// \throw InvalidOptions if `page_template` is not such a viewer, or the number or kinds of scenes
 ///        are not permitted; MeshError if a path or space is not valid, or too large for a page.
 std::string MakePage(const std::string& page_template, const std::vector<PageScene>& scenes,
-                     const PageView& view = {});
+                     const PageView& view = {}, std::vector<std::string>* warnings = nullptr);
 
 /// Writes such a page, completely or not at all.
 /// \throw as above; FileError if the file cannot be written.
 void WritePage(const std::string& file, const std::string& page_template,
-               const std::vector<PageScene>& scenes, const PageView& view = {});
+               const std::vector<PageScene>& scenes, const PageView& view = {},
+               std::vector<std::string>* warnings = nullptr);
 
 }  // namespace shapespace
 

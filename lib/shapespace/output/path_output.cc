@@ -69,8 +69,11 @@ class Writer {
         break;
       case PathOutput::Kind::kPage:
         WritePage(file_, options_.page_template,
-                  {PagePath{&path_, std::filesystem::path(file_).stem().string()}},
-                  {options_.film_strip.up, options_.film_strip.view});
+                  {PagePath{&path_,
+                            std::filesystem::path(file_).stem().string(),
+                            {},
+                            options_.gltf.allow_outside_files}},
+                  {options_.film_strip.up, options_.film_strip.view}, &summary_.warnings);
         break;
     }
     return std::move(summary_);

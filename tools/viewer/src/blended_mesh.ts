@@ -17,13 +17,12 @@ import {
   SRGBColorSpace,
   Vector3,
   type Material,
-  type Texture,
 } from 'three';
 import { declarations } from './blend_shader';
 import { Marks } from './marks';
 import { isFaceted, vertexNormals } from './normals';
 import { markColour, rampColour, type Triple } from './ramp';
-import type { Body } from './scene_data';
+import type { Body, Skin } from './scene_data';
 
 const clay = new Color(0xbfae9a);
 const back = new Color(0xd9822b);
@@ -81,9 +80,8 @@ export class BlendedMesh extends Group {
   constructor(readonly body: Body) {
     super();
     this.isGraph = body.triangles.length === 0;
-    this.geometry.setIndex(
-      new BufferAttribute(this.isGraph ? body.segments : body.triangles, 1),
-    );
+    const triangles = body.skin?.cut?.triangles ?? body.triangles;
+    this.geometry.setIndex(new BufferAttribute(this.isGraph ? body.segments : triangles, 1));
     this.geometry.boundingSphere = new Sphere(new Vector3(0.5, 0.5, 0.5), Math.sqrt(3) / 2);
     if (this.isGraph) {
       const material = new LineBasicMaterial();
@@ -145,10 +143,10 @@ export class BlendedMesh extends Group {
 
   /** Shows the first shape again, after its array has changed. */
   refresh(): void {
-    this.positionsOf(0).needsUpdate = true;
+    this.sendAgain(0);
     if (this.isGraph) return;
     const normals = this.normalsOf(0);
-    normals.array.set(vertexNormals(this.body, this.body.shapes[0]));
+    normals.array.set(this.drawn(vertexNormals(this.body, this.body.shapes[0]), 4));
     normals.needsUpdate = true;
   }
 
@@ -164,7 +162,8 @@ export class BlendedMesh extends Group {
   /** Draws points at vertices: for each its colour, 0xrrggbb. */
   mark(colours: Map<number, number>): void {
     if (!this.marks) {
-      this.marks = new Marks(this.geometry, this.body.vertices, this.uniforms);
+      const drawn = this.body.skin?.cut?.source.length ?? this.body.vertices;
+      this.marks = new Marks(this.geometry, drawn, this.uniforms);
       this.add(this.marks);
     }
     this.marks.show(colours);
@@ -224,15 +223,16 @@ export class BlendedMesh extends Group {
 
   /** Shows the body's own colours and textures; plain if it has none. */
   colourAsItIs(): void {
-    this.setColours(this.body.colours, this.body.skin?.parts.map(({ map }) => map) ?? []);
+    this.setColours(this.body.colours, this.body.skin?.parts ?? []);
   }
 
-  private setColours(colours: Uint8Array | null, maps: (Texture | null)[]): void {
+  private setColours(colours: Uint8Array | null, parts: Skin['parts']): void {
     this.uniforms.byDeviation.value = 0;
-    if (colours) this.geometry.setAttribute('color', linearColours(colours));
+    if (colours) this.geometry.setAttribute('color', linearColours(this.drawn(colours, 3)));
     this.materials().forEach((material, i) => {
-      const map = maps[i] ?? null;
+      const { map = null, colour = null } = parts[i] ?? {};
       material.color.copy(colours || map ? new Color(1, 1, 1) : clay);
+      if (colour) material.color.setRGB(...colour, SRGBColorSpace);
       material.vertexColors = colours !== null;
       material.map = map;
       material.needsUpdate = true;
@@ -251,17 +251,36 @@ export class BlendedMesh extends Group {
       for (let v = 0; v < of.length; ++v) {
         [shape[4 * v + 3], of[v]] = [of[v], shape[4 * v + 3]];
       }
-      if (this.positions[s]) this.positions[s].needsUpdate = true;
+      if (this.positions[s]) this.sendAgain(s);
     });
   }
 
+  /** Of the body's vertices a few numbers each; the same of those that are drawn. */
+  private drawn<Values extends Uint8Array | Int8Array | Uint16Array>(values: Values, size: number): Values {
+    const source = this.body.skin?.cut?.source;
+    if (!source) return values;
+    const spread = new (values.constructor as new (length: number) => Values)(size * source.length);
+    source.forEach((from, v) => {
+      for (let k = 0; k < size; ++k) spread[size * v + k] = values[size * from + k];
+    });
+    return spread;
+  }
+
+  /** To the GPU, a shape whose array has changed. */
+  private sendAgain(node: number): void {
+    const positions = this.positionsOf(node);
+    positions.array.set(this.drawn(this.body.shapes[node], 4));
+    positions.needsUpdate = true;
+  }
+
   private positionsOf(node: number): BufferAttribute {
-    return (this.positions[node] ??= new BufferAttribute(this.body.shapes[node], 4, true));
+    const values = () => this.drawn(this.body.shapes[node], 4);
+    return (this.positions[node] ??= new BufferAttribute(values(), 4, true));
   }
 
   private normalsOf(node: number): BufferAttribute {
     return (this.normals[node] ??= new BufferAttribute(
-      vertexNormals(this.body, this.body.shapes[node]),
+      this.drawn(vertexNormals(this.body, this.body.shapes[node]), 4),
       4,
       true,
     ));

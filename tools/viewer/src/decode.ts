@@ -1,5 +1,7 @@
 // Reads the scenes that shape-view writes: docs/file-formats.md, HTML.
-import { Damaged, type Body, type PathScene, type SceneData } from './scene_data';
+import { RepeatWrapping, SRGBColorSpace, Texture } from 'three';
+import { tell } from './dom';
+import { Damaged, type Body, type PathScene, type SceneData, type Skin } from './scene_data';
 
 export function bytesFromBase64(text: string): Uint8Array<ArrayBuffer> {
   let binary: string;
@@ -114,6 +116,46 @@ function readIntersections(
   });
 }
 
+/** Numbers in single precision, coded as indices are. */
+function readFloats(reader: Reader, count: number): Float32Array {
+  return new Float32Array(readIndices(reader, count, 2 ** 32).buffer);
+}
+
+async function readImage(reader: Reader, { type, bytes }: any): Promise<Texture | null> {
+  const blob = new Blob([reader.take(bytes).slice()], { type });
+  let image: ImageBitmap;
+  try {
+    image = await createImageBitmap(blob);
+  } catch {
+    tell('A texture cannot be shown, because its image is damaged.');
+    return null;
+  }
+  const texture = new Texture(image);
+  Object.assign(texture, { flipY: false, colorSpace: SRGBColorSpace, needsUpdate: true });
+  texture.wrapS = texture.wrapT = RepeatWrapping;
+  return texture;
+}
+
+async function readSkin(reader: Reader, textures: any, vertices: number): Promise<Skin> {
+  const source = readIndices(reader, textures.vertices, vertices);
+  const sizes: number[] = textures.parts.map(({ triangles }: any) => 3 * triangles);
+  const corners = sizes.reduce((sum, size) => sum + size, 0);
+  const triangles = readIndices(reader, corners, textures.vertices);
+  const uv = new Float32Array(2 * textures.vertices);
+  for (const axis of [0, 1]) {
+    readFloats(reader, textures.vertices).forEach((value, v) => (uv[2 * v + axis] = value));
+  }
+  const images: (Texture | null)[] = [];
+  for (const image of textures.images) images.push(await readImage(reader, image));
+  let start = 0;
+  const parts = textures.parts.map(({ image, colour }: any, i: number) => {
+    const part = { start, count: sizes[i], map: images[image] ?? null, colour: colour ?? undefined };
+    start += sizes[i];
+    return part;
+  });
+  return { cut: { source, triangles }, uv, parts };
+}
+
 function along(shapes: Uint16Array[]): Predict {
   return (s, index) => {
     if (s === 0) return 0;
@@ -170,6 +212,11 @@ function checkHeader(header: any) {
     check(header.speeds.length === header.shapes - 1);
     check(header.energyEnd === null || header.energyEnd > 0);
     check(isCount(header.parts));
+    if (header.textures !== null) {
+      const { vertices, parts, images } = header.textures;
+      check([vertices, ...parts.map(({ triangles }: any) => triangles)].every(isCount));
+      check(images.every(({ bytes }: any) => isCount(bytes)));
+    }
     if (header.intersections !== null) {
       check(header.intersections.length === header.shapes);
       check(header.intersections.every(({ pairs, vertices }: any) => [pairs, vertices].every(isCount)));
@@ -231,13 +278,14 @@ export async function decodeScene(text: string): Promise<SceneData> {
     };
   }
   const colours = header.colours ? reader.take(3 * vertices) : null;
+  const skin = header.textures ? await readSkin(reader, header.textures, vertices) : null;
   reader.end();
   const body: Omit<Body, 'name'> = {
     vertices,
     triangles,
     segments,
     colours,
-    skin: null,
+    skin,
     shapes,
     low: header.low,
     side: header.side,

@@ -107,7 +107,7 @@ function skinOf(drawn: Drawn[], vertices: number): Skin | null {
     start += parts[parts.length - 1].count;
     at += 2 * count;
   }
-  return parts.some(({ map }) => map) ? { uv, parts } : null;
+  return parts.some(({ map }) => map) ? { cut: null, uv, parts } : null;
 }
 
 /** The smallest cube that contains all points and has its corner at their least coordinates. */

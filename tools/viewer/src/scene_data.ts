@@ -1,13 +1,18 @@
 // The data of a page, whether they come from shape-view or from a glb file.
 
 import type { Texture } from 'three';
+import type { Triple } from './ramp';
 
 /** The textures of a body. */
 export interface Skin {
-  /** Texture coordinates, two of every vertex. */
+  /** The surface as it is drawn, if it is cut at seams: the body's vertex for each that is drawn, and
+   * triangles of those that are drawn. Without, it is the body's own. */
+  cut: { source: Uint32Array; triangles: Uint32Array } | null;
+  /** Texture coordinates, two of every vertex that is drawn. */
   uv: Float32Array;
-  /** Runs of `triangles`, from which number on and how many numbers, each with its texture. */
-  parts: { start: number; count: number; map: Texture | null }[];
+  /** Runs of the triangles that are drawn, from which number on and how many numbers, each with its
+   * texture, and, without one, its colour in sRGB if it has its own. */
+  parts: { start: number; count: number; map: Texture | null; colour?: Triple }[];
 }
 
 /** The bones of a glb. */
@@ -27,7 +32,7 @@ export interface Body {
   segments: Uint32Array;
   /** Red, green and blue of every vertex in sRGB, if there are any. */
   colours: Uint8Array | null;
-  /** The textures that a glb has. */
+  /** The textures, if there are any. */
   skin: Skin | null;
   /** The cube that contains all shapes: its corner with the least coordinates, and its side. */
   low: [number, number, number];

@@ -8,8 +8,6 @@
 #include <utility>
 
 #include <shapespace/base/error.h>
-#include <shapespace/base/internal/read_file.h>
-#include <shapespace/base/internal/within_folder.h>
 #include <shapespace/mesh/internal/geometry.h>
 #include <shapespace/mesh/surface.h>
 #include <shapespace/output/detail/gltf_arrays.h>
@@ -149,16 +147,11 @@ tinygltf::Material PlainMaterial(const Colour& colour) {
   return material;
 }
 
-// Textures from image files in `folder` and below it, or anywhere, each of which is embedded once.
-// -1, with a warning, if that fails.
+// Textures from image files, each of which is embedded once. -1, with a warning, if that fails.
 class Textures {
  public:
-  Textures(const std::string& folder, bool allow_outside_files, Model* model,
-           std::vector<std::string>* warnings)
-      : folder_(folder),
-        allow_outside_files_(allow_outside_files),
-        model_(model),
-        warnings_(warnings) {}
+  Textures(const GltfBody& body, Model* model, std::vector<std::string>* warnings)
+      : body_(body), model_(model), warnings_(warnings) {}
 
   int Add(const std::string& file) {
     const auto [found, is_new] = known_.try_emplace(file, -1);
@@ -168,30 +161,13 @@ class Textures {
 
  private:
   int AddNew(const std::string& file) {
-    if (!allow_outside_files_ && !IsWithinFolder(folder_, file)) {
-      warnings_->push_back("texture " + file + kOutsideRemedy);
-      return -1;
-    }
+    const std::optional<TextureImage> read =
+        ReadTexture(file, body_.appearance, body_.allow_outside_files, warnings_);
+    if (!read) return -1;
     tinygltf::Image image;
-    std::string bytes;
-    try {
-      bytes = ReadFile(file);
-    } catch (const FileError& error) {
-      warnings_->push_back("texture " + std::string(error.what()) + "; it is left out");
-      return -1;
-    }
-    // The signatures of PNG and JPEG.
-    if (bytes.compare(0, 8, "\x89PNG\r\n\x1a\n") == 0) {
-      image.mimeType = "image/png";
-    } else if (bytes.compare(0, 3, "\xff\xd8\xff") == 0) {
-      image.mimeType = "image/jpeg";
-    } else {
-      warnings_->push_back("texture " + file +
-                           ": is neither PNG nor JPEG, the formats of glTF; it is left out");
-      return -1;
-    }
+    image.mimeType = read->type;
     image.name = AsUtf8(std::filesystem::path(file).filename().string());
-    image.bufferView = AddBytes(bytes.data(), bytes.size(), 0, model_);
+    image.bufferView = AddBytes(read->bytes.data(), read->bytes.size(), 0, model_);
     tinygltf::Texture texture;
     texture.source = static_cast<int>(model_->images.size());
     model_->images.push_back(image);
@@ -199,8 +175,7 @@ class Textures {
     return static_cast<int>(model_->textures.size()) - 1;
   }
 
-  const std::string& folder_;
-  const bool allow_outside_files_;
+  const GltfBody& body_;
   Model* model_;
   std::vector<std::string>* warnings_;
   std::map<std::string, int> known_;
@@ -319,7 +294,7 @@ std::vector<int> AddGltfMesh(const std::string& file, const GltfBody& body,
   if (!cut.texture.allFinite()) {
     throw MeshError(file + ": single precision cannot hold a texture coordinate");
   }
-  Textures textures(body.appearance.own_folder, body.allow_outside_files, model, warnings);
+  Textures textures(body, model, warnings);
   const std::vector<Part> parts = PartsByMaterial(connectivity, cut, body.appearance, plain,
                                                   body.allow_outside_files, &textures, warnings);
   CheckBytes(file,

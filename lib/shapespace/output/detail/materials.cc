@@ -129,4 +129,31 @@ std::vector<std::optional<Material>> ReadMaterials(const Appearance& appearance,
   return materials;
 }
 
+std::optional<TextureImage> ReadTexture(const std::string& file, const Appearance& appearance,
+                                        bool allow_outside_files,
+                                        std::vector<std::string>* warnings) {
+  if (!allow_outside_files && !IsWithinFolder(appearance.own_folder, file)) {
+    warnings->push_back("texture " + file + kOutsideRemedy);
+    return {};
+  }
+  TextureImage image;
+  try {
+    image.bytes = ReadFile(file);
+  } catch (const FileError& error) {
+    warnings->push_back("texture " + std::string(error.what()) + "; it is left out");
+    return {};
+  }
+  // The signatures of PNG and JPEG.
+  if (image.bytes.compare(0, 8, "\x89PNG\r\n\x1a\n") == 0) {
+    image.type = "image/png";
+  } else if (image.bytes.compare(0, 3, "\xff\xd8\xff") == 0) {
+    image.type = "image/jpeg";
+  } else {
+    warnings->push_back("texture " + file +
+                        ": is neither PNG nor JPEG, the formats that are shown; it is left out");
+    return {};
+  }
+  return image;
+}
+
 }  // namespace shapespace::internal

@@ -29,6 +29,18 @@ std::vector<std::optional<Material>> ReadMaterials(const Appearance& appearance,
                                                    bool allow_outside_files,
                                                    std::vector<std::string>* warnings);
 
+/// An image file as it is.
+struct TextureImage {
+  std::string type;  ///< image/png or image/jpeg, the formats that glTF and browsers read
+  std::string bytes;
+};
+
+/// Reads the image of a texture. Nothing, and a sentence in `warnings`, if it cannot be read, is of
+/// another format, or lies outside of `Appearance::own_folder` unless `allow_outside_files`.
+std::optional<TextureImage> ReadTexture(const std::string& file, const Appearance& appearance,
+                                        bool allow_outside_files,
+                                        std::vector<std::string>* warnings);
+
 }  // namespace shapespace::internal
 
 #endif  // SHAPESPACE_OUTPUT_DETAIL_MATERIALS_H_

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
+#include <optional>
 #include <utility>
 
 #include <zlib.h>
@@ -18,6 +20,7 @@
 #include <shapespace/base/internal/sort_unique.h>
 #include <shapespace/base/parallel.h>
 #include <shapespace/output/detail/legend.h>
+#include <shapespace/output/detail/page_textures.h>
 #include <shapespace/output/detail/ray_scene.h>
 #include <shapespace/output/internal/view.h>
 #include <shapespace/output/vertex_colours.h>
@@ -277,6 +280,42 @@ void AppendIntersections(const Path& path, OrderedJson* header, std::string* byt
   AppendIndices(all.data(), all.size(), bytes);
 }
 
+// Numbers as their bits in single precision.
+void AppendFloats(const Eigen::VectorXf& numbers, std::string* bytes) {
+  std::vector<int> bits(numbers.size());
+  static_assert(sizeof(int) == sizeof(float));
+  std::memcpy(bits.data(), numbers.data(), sizeof(int) * bits.size());
+  AppendIndices(bits.data(), bits.size(), bytes);
+}
+
+// Those of the path's surface, if there are any.
+void AppendTextures(const PagePath& scene, OrderedJson* header, std::string* bytes,
+                    std::vector<std::string>* warnings) {
+  (*header)["textures"] = nullptr;
+  const std::optional<PageTextures> textures =
+      FindPageTextures(*scene.path->metric->connectivity, scene.path->appearance,
+                       scene.allow_outside_files, warnings);
+  if (!textures) return;
+  if (!textures->coordinates.allFinite()) {
+    throw MeshError(scene.name + ": single precision cannot hold a texture coordinate");
+  }
+  OrderedJson& of_header = (*header)["textures"];
+  of_header = {{"vertices", textures->source.size()}};
+  for (const PageTextures::Part& part : textures->parts) {
+    OrderedJson colour;
+    if (part.colour) colour = std::vector<double>(part.colour->begin(), part.colour->end());
+    of_header["parts"].push_back(
+        {{"triangles", part.triangles}, {"image", part.image}, {"colour", colour}});
+  }
+  for (const TextureImage& image : textures->images) {
+    of_header["images"].push_back({{"type", image.type}, {"bytes", image.bytes.size()}});
+  }
+  AppendIndices(textures->source.data(), textures->source.size(), bytes);
+  AppendIndices(textures->corners.data(), textures->corners.size(), bytes);
+  for (int k = 0; k < 2; ++k) AppendFloats(textures->coordinates.row(k).transpose(), bytes);
+  for (const TextureImage& image : textures->images) *bytes += image.bytes;
+}
+
 std::string Compress(const std::string& bytes) {
   uLongf size = compressBound(bytes.size());
   std::string compressed(size, 0);
@@ -372,7 +411,8 @@ OrderedJson Columns(const Matrix& matrix) {
 
 }  // namespace
 
-std::string EncodeScene(const PagePath& scene, const PageView& view) {
+std::string EncodeScene(const PagePath& scene, const PageView& view,
+                        std::vector<std::string>* warnings) {
   const Path& path = *scene.path;
   try {
     path.Validate();
@@ -401,6 +441,7 @@ std::string EncodeScene(const PagePath& scene, const PageView& view) {
   AppendParts(path, &header, &arrays);
   AppendIntersections(path, &header, &arrays);
   AppendOwnColours(path.appearance.vertex_colours, &header, &arrays);
+  AppendTextures(scene, &header, &arrays, warnings);
   return Pack(header, arrays);
 }
 
