@@ -78,7 +78,7 @@ await shoot('markers', { width: 1000, height: 640, colorScheme: 'light' }, async
     await page.mouse.click(x + (u + 0.5) * width, y + v * height);
   }
 });
-await shoot('bones', { width: 1000, height: 640, colorScheme: 'light' }, async (page) => {
+await shoot('bones', { width: 1000, height: 760, colorScheme: 'light' }, async (page) => {
   await page.locator('#bones').check();
   await setTime(page, 0.3);
 });

@@ -5,23 +5,28 @@ import math
 import os
 
 from .problem import Problem
-from .task import Deformation, Fit, Handle, Metric, Repair, Task
+from .task import Deformation, Fit, Handle, Metric, Repair, Skinning, Task
 
 NEEDED = ("shape-interpolate", "shape-extrapolate", "shape-transfer")
 # Which older tools do not have.
-OPTIONAL = ("shape-average", "shape-correspond", "shape-deform", "shape-statistics")
+OPTIONAL = (
+    "shape-average", "shape-correspond", "shape-deform", "shape-export", "shape-statistics"
+)  # fmt: skip
 REPORT = "report.json"  # of the last command that wrote one
 SOURCE = "source.path"  # the motion that is transferred
 
 _STIFFNESS = "stiffness.txt"
 _HANDLES = "handles.json"
 _FITTED = "fitted.ply"
+_SKINNED = "skinned.glb"
 
 
 def outputs(task) -> list:
-    """The point caches that the commands write, or the mesh."""
+    """The point caches that the commands write, or the mesh, or the skin."""
     if isinstance(task, Fit):
         return [_FITTED]
+    if isinstance(task, Skinning):
+        return [_SKINNED]
     return [f"motion{i}.pc2" for i in range(max(1, len(getattr(task, "targets", []))))]
 
 
@@ -30,6 +35,8 @@ def commands(task, poses: list, targets: list, programs: dict, folder: str) -> l
     Raises a Problem if a tool is not there."""
     if isinstance(task, Fit):
         return [_fit(task, poses, targets, programs)]
+    if isinstance(task, Skinning):
+        return [_skin(task, poses, programs)]
     metric = _metric_flags(task.metric, folder)
     if isinstance(task, Deformation):
         return [_deform(task, poses, programs, folder) + metric]
@@ -103,6 +110,17 @@ def _fit(task: Fit, poses: list, targets: list, programs: dict) -> list:
     program = _optional("shape-correspond", programs)
     flags = ["--output", _FITTED, "--report", REPORT]
     return [program, *poses, *targets, *_seam_flags(task.open_seams), *flags]
+
+
+def _skin(task: Skinning, poses: list, programs: dict) -> list:
+    """Shape k is at the time k of the animation."""
+    flags = ["--bones", str(task.bones or "auto"), "--bone_weights", str(task.weights)]
+    if task.bones is None:
+        flags += ["--bone_error", repr(task.error)]
+    if task.scale:
+        flags += ["--bone_scale"]
+    flags += ["--allow_mirrored", *_seam_flags(task.open_seams), "--once", "--fps", "1"]
+    return [_optional("shape-export", programs), *poses, *flags, "--output", _SKINNED]
 
 
 def _results(i: int) -> list:

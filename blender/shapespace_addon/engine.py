@@ -6,11 +6,14 @@ import bpy
 
 from . import module, tools
 from .problem import Problem
+from .task import Skinning
 
 
 def begin(task, preferences):
     """Starts a run according to the preferences. Raises Problem if nobody can compute."""
-    if preferences.engine != "TOOLS":
+    if isinstance(task, Skinning):
+        _require_tools(preferences)
+    elif preferences.engine != "TOOLS":
         try:
             return module.ModuleRun(task, module.find())
         except Problem:
@@ -18,6 +21,14 @@ def begin(task, preferences):
                 raise
     folder = bpy.path.abspath(preferences.tools)
     return tools.ToolsRun(task, tools.find(folder), bpy.app.tempdir)
+
+
+def _require_tools(preferences) -> None:
+    if preferences.engine == "MODULE":
+        raise Problem(
+            "Bones are found by the tools: choose Automatic or Tools in the preferences of this"
+            " add-on"
+        )
 
 
 def describe(preferences) -> str:

@@ -10,6 +10,7 @@ _OPERATORS = (
     ("shapespace.transfer", "MOD_DATA_TRANSFER"),
     ("shapespace.fit", "MOD_SHRINKWRAP"),
     ("shapespace.average", "MOD_SMOOTH"),
+    ("shapespace.bones", "ARMATURE_DATA"),
     ("shapespace.deform", "MOD_SIMPLEDEFORM"),
     ("shapespace.deform_live", "PLAY"),
     ("shapespace.repair", "TOOL_SETTINGS"),

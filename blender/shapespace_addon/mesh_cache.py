@@ -4,6 +4,7 @@ import os
 
 import bpy
 
+from . import modifiers
 from .files import write_pc2
 from .problem import Problem
 
@@ -56,10 +57,7 @@ def add_motion(context, item, shapes, file: str, timing) -> None:
     write_pc2(file, shapes)
     modifier = _modifier(item)
     if modifier is None:
-        modifier = item.modifiers.new(_MODIFIER, "MESH_CACHE")
-        if len(item.modifiers) > 1:
-            with context.temp_override(object=item, active_object=item):
-                bpy.ops.object.modifier_move_to_index(modifier=modifier.name, index=0)
+        modifier = modifiers.add_first(context, item, _MODIFIER, "MESH_CACHE")
     modifier.cache_format = "PC2"
     modifier.filepath = bpy.path.relpath(file) if bpy.data.filepath else file
     # The cache's shape at a frame is its number `frame * frame_scale - frame_start`.

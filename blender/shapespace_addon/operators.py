@@ -9,10 +9,11 @@ from types import SimpleNamespace
 
 import bpy
 
-from . import deforming, engine, handles, live, poses, progress, report, running, work
+from . import bones, deforming, engine, handles, live, poses, progress, report, running, work
 from .problem import Problem
 from .settings import (
     AverageSettings,
+    BonesSettings,
     ContactSettings,
     DeformSettings,
     ExtrapolationSettings,
@@ -197,6 +198,19 @@ class SHAPESPACE_OT_average(_OfPoses, PoseSettings, AverageSettings, bpy.types.O
     work = work.Average
 
 
+class SHAPESPACE_OT_bones(_Run, BonesSettings, bpy.types.Operator):
+    """Add a copy of the active mesh that bones move as the mesh moves in the scene's frames: by shape
+    keys, a cache, or anything else. It has an armature, vertex groups and an action"""
+
+    bl_idname = "shapespace.bones"
+    bl_label = "Make Bones"
+    work = bones.MakeBones
+
+    @staticmethod
+    def require(context) -> None:
+        poses.active_mesh(context)
+
+
 class SHAPESPACE_OT_deform(_Run, DeformSettings, bpy.types.Operator):
     """Deform the active mesh, or that of the active empty, by its handles. The result is a shape
     key"""
@@ -298,6 +312,7 @@ CLASSES = (
     SHAPESPACE_OT_transfer,
     SHAPESPACE_OT_fit,
     SHAPESPACE_OT_average,
+    SHAPESPACE_OT_bones,
     SHAPESPACE_OT_deform,
     SHAPESPACE_OT_deform_live,
     SHAPESPACE_OT_repair,

@@ -79,6 +79,18 @@ class SHAPESPACE_PT_motion(_Part, bpy.types.Panel):
         buttons.draw(column, context, "shapespace.average", "MOD_SMOOTH")
 
 
+class SHAPESPACE_PT_bones(_Part, bpy.types.Panel):
+    bl_label = "Bones"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw_settings(self, column, context, settings):
+        buttons.draw(column, context, "shapespace.bones", "ARMATURE_DATA")
+        column.prop(settings, "auto_bones")
+        column.prop(settings, "bone_error" if settings.auto_bones else "bones")
+        for name in ("bone_weights", "bone_scale", "bone_step"):
+            column.prop(settings, name)
+
+
 class SHAPESPACE_UL_handles(bpy.types.UIList):
     def draw_item(self, _context, layout, _data, handle, _icon, _active_data, _active_name):
         fixed = handle.moves == "FIXED"
@@ -139,6 +151,7 @@ CLASSES = (
     SHAPESPACE_UL_handles,
     SHAPESPACE_PT_panel,
     SHAPESPACE_PT_motion,
+    SHAPESPACE_PT_bones,
     SHAPESPACE_PT_deform,
     SHAPESPACE_PT_repair,
     SHAPESPACE_PT_metric,

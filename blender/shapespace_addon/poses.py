@@ -109,21 +109,29 @@ def poses_of_objects(context, items) -> Poses:
     """Objects as they are seen, that is, with their modifiers, and where they stand."""
     for item in items:
         require_object_mode(item)
-    depsgraph = context.evaluated_depsgraph_get()
     names = [item.name for item in items]
-    shapes, topologies = [], []
-    for item in items:
-        evaluated = item.evaluated_get(depsgraph)
-        mesh = evaluated.to_mesh()
+    meshes = [seen_mesh(context, item) for item in items]
+    for name, (_, _, matrix) in zip(names, meshes):
+        _require_same_side(names[0], meshes[0][2], name, matrix)
+    return poses_of_seen(names, meshes)
+
+
+def seen_mesh(context, item) -> tuple:
+    """An object as it is seen, that is, with its modifiers: vertices, topology and matrix."""
+    evaluated = item.evaluated_get(context.evaluated_depsgraph_get())
+    mesh = evaluated.to_mesh()
+    try:
         _require_vertices(item.name, mesh)
-        shapes.append(_coordinates(mesh.vertices))
-        topologies.append(topology_of(mesh))
+        return _coordinates(mesh.vertices), topology_of(mesh), matrix_of(context, item)
+    finally:
         evaluated.to_mesh_clear()
+
+
+def poses_of_seen(names: list, meshes: list) -> Poses:
+    """Poses of what `seen_mesh` returns. Raises a Problem unless all have the same faces."""
+    shapes, topologies, matrices = zip(*meshes)
     for name, topology in zip(names, topologies):
         require_same(topologies[0], names[0], topology, name)
-    matrices = [matrix_of(context, item) for item in items]
-    for name, matrix in zip(names, matrices):
-        _require_same_side(names[0], matrices[0], name, matrix)
     return _poses(names, shapes, matrices, topologies[0])
 
 

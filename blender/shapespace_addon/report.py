@@ -94,6 +94,9 @@ _ROWS = (
     ("Volume before", "before.volume", _percent),
     ("Volume after", "after.volume", _percent),
     ("Moved, rms", "moved", _number),
+    ("Bones", "skin.bones", _number),
+    ("Vertices off, rms", "skin.error", _percent),
+    ("Vertices off, max", "skin.max_error", _percent),
     ("Time", "total_seconds", _seconds),
     ("Time", "deformation.total_seconds", _seconds),
 )

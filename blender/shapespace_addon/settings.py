@@ -208,6 +208,51 @@ class AverageSettings:
     )
 
 
+class BonesSettings(SurfaceSettings):
+    auto_bones: BoolProperty(
+        name="As Few As Needed",
+        description="Take as few bones as the error needs. Otherwise, the given number",
+    )
+    bones: IntProperty(
+        name="Bones",
+        description="Number of bones. With more, the motion is met more closely",
+        default=20,
+        min=1,
+        max=500,
+    )
+    bone_error: FloatProperty(
+        name="Error",
+        description="Permitted distance of vertices from their places (root mean square), in per cent"
+        " of half the diagonal of the body",
+        default=0.5,
+        min=1e-3,
+        soft_max=5,
+        max=99,
+        subtype="PERCENTAGE",
+        precision=2,
+    )
+    bone_weights: IntProperty(
+        name="Weights",
+        description="Bones that may move one vertex. Many game engines take 4",
+        default=4,
+        min=1,
+        max=8,
+    )
+    bone_scale: BoolProperty(
+        name="Stretch",
+        description="Bones may also be stretched, by bones of their own. The error is lower, but not"
+        " every game engine plays it",
+    )
+    bone_step: IntProperty(
+        name="Every",
+        description="Frames from one shape that the bones are fitted to, to the next. With more, it is"
+        " faster",
+        default=1,
+        min=1,
+        soft_max=25,
+    )
+
+
 class DeformSettings(MetricSettings, ToleranceSettings):
     deform_shapes: IntProperty(
         name="Steps",
@@ -250,6 +295,7 @@ class SHAPESPACE_settings(
     ExtrapolationSettings,
     TransferSettings,
     AverageSettings,
+    BonesSettings,
     DeformSettings,
     RepairSettings,
     bpy.types.PropertyGroup,

@@ -100,9 +100,21 @@ class Fit:
 
 
 @dataclass
+class Skinning:
+    """A motion to be reproduced by bones."""
+
+    poses: Body  # a shape for each moment, the first one at rest
+    bones: int | None  # None: as few as `error` needs
+    error: float  # permitted rms distance, as a share of half the diagonal
+    weights: int  # bones that may move a vertex
+    scale: bool  # whether bones may be stretched
+    open_seams: bool = False
+
+
+@dataclass
 class Result:
     """Motions, and what is worth saying about them."""
 
-    motions: list  # k x n x 3 each: one of the poses' body, or one of each target
+    motions: list  # k x n x 3 each: one of the poses' body, or one of each target; or a `Skin`
     notes: list
     report: dict  # of the last solve, as --report report.json of the tools has it

@@ -7,7 +7,7 @@ import subprocess
 import tempfile
 import threading
 
-from . import commands
+from . import commands, skinned_gltf
 from .files import read_shapes, write_ply
 from .problem import Problem
 from .task import Result
@@ -36,6 +36,7 @@ class ToolsRun:
     def __init__(self, task, programs: dict, temporary: str):
         self.share = None
         self.text = ""
+        self._body = task.poses
         self._notes = []
         self._errors = []
         self._process = None
@@ -84,12 +85,23 @@ class ToolsRun:
     def result(self) -> Result:
         try:
             files = [os.path.join(self._folder.name, name) for name in self._outputs]
-            with open(os.path.join(self._folder.name, commands.REPORT)) as source:
-                report = json.load(source)
-            motions = [read_shapes(file) for file in files]
-            return Result(motions, list(dict.fromkeys(self._notes)), report)
+            motions = [self._read_motion(file) for file in files]
+            return Result(motions, list(dict.fromkeys(self._notes)), self._report())
         finally:
             self._folder.cleanup()
+
+    def _read_motion(self, file: str):
+        if file.endswith(".glb"):
+            return skinned_gltf.read(file, self._body.topology.vertices, len(self._body.shapes))
+        return read_shapes(file)
+
+    def _report(self) -> dict:
+        """What the tool has written, if it writes one."""
+        file = os.path.join(self._folder.name, commands.REPORT)
+        if not os.path.exists(file):
+            return {}
+        with open(file) as source:
+            return json.load(source)
 
     def _write(self, body, prefix: str) -> list:
         files = [f"{prefix}{i}.ply" for i in range(len(body.shapes))]

@@ -44,6 +44,12 @@ class Undo(Case):
         select(first, second)
         self.undone_and_redone(bpy.ops.shapespace.inbetweens, shapes=2)
 
+    def test_bones(self):
+        cube = self.cube()
+        bpy.ops.shapespace.inbetweens(shapes=2)
+        cube.select_set(True)
+        self.undone_and_redone(bpy.ops.shapespace.bones, bones=3)
+
     def test_transfer(self):
         cube = self.cube()
         target = add_object("target", np.array(CUBE) * 1.25, CUBE_FACES)
