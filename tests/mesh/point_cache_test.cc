@@ -132,8 +132,11 @@ TEST_F(PointCacheTest, FramesArePosesOfTheMeshBefore) {
 TEST_F(PointCacheTest, OfAnotherMeshOrNoneNamesTheRemedy) {
   WritePointCache(Path("walk.pc2"), shapes_);
   File("triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-  ExpectError<FileError>([&] { ReadPoses({Path("triangle.obj"), Path("walk.pc2")}); },
-                         {"walk.pc2: ", "8 vertices", "triangle.obj has 3"});
+  ExpectError<FileError>(
+      [&] {
+        ReadPoses({Path("triangle.obj"), Path("walk.pc2")});
+      },
+      {"walk.pc2: ", "8 vertices", "triangle.obj has 3"});
   ExpectError<FileError>([&] { ReadPoses({Path("walk.pc2")}); }, {"walk.pc2: ", "mesh"});
   ExpectError<FileError>([&] { ReadSoup(Path("walk.pc2")); }, {"walk.pc2: ", "mesh"});
 }

@@ -13,9 +13,11 @@ void ForOptions(Of<SkinningOptions>, const Visit& visit) {
   visit("bones", &SkinningOptions::bones,
         "Number of bones; 0: as few as are found with which the error is at most `error`.");
   visit("error", &SkinningOptions::error,
-        "Where the number is to be found: the permitted root mean square distance of vertices from their places, as a "
+        "Where the number is to be found: the permitted root mean square distance of vertices from "
+        "their places, as a "
         "share of half the diagonal of the rest pose.");
-  visit("most_bones", &SkinningOptions::most_bones, "Where the number is to be found: no more than these.");
+  visit("most_bones", &SkinningOptions::most_bones,
+        "Where the number is to be found: no more than these.");
   visit("weights_per_vertex", &SkinningOptions::weights_per_vertex,
         "Bones that may move a vertex, 1 to 8; engines read 4.");
   visit("scale", &SkinningOptions::scale,
