@@ -17,6 +17,8 @@ const reach = 1.5;
 /** Below the body, so that flat soles are not drawn through the ground. */
 const gap = 0.002;
 const shadowPixels = 256;
+/** The ground is in its own shadow map, whose depths have 16 bits: nearer than this is the ground itself. */
+const ownDepth = 1e-3;
 
 /** A disc of radius 1, which fades towards its rim. */
 function disc(): CircleGeometry {
@@ -47,6 +49,7 @@ export class Ground extends Group {
     }
     this.light.castShadow = true;
     this.light.shadow.mapSize.set(shadowPixels, shadowPixels);
+    this.light.shadow.bias = -ownDepth;
     this.light.shadow.radius = 5;
     this.light.shadow.blurSamples = 8;
     this.add(this.light, this.light.target);
