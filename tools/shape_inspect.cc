@@ -60,13 +60,9 @@ const char* Name(Severity severity) {
 bool Print(const std::vector<Finding>& findings, Json* list, Telling* told) {
   bool good = true;
   for (const Finding& finding : findings) {
-    Severity severity = finding.severity;
-    if ((severity == Severity::kNonManifold && FLAGS_allow_nonmanifold) ||
-        (severity == Severity::kMirrored && FLAGS_allow_mirrored) ||
-        (severity == Severity::kDoubtful && FLAGS_allow_mismatch)) {
-      severity = Severity::kWarning;
-    }
-    const bool acceptable = severity <= Severity::kWarning;
+    const bool acceptable = !IsRefused(finding, MeshOptionsFromFlags());
+    const Severity severity =
+        acceptable ? std::min(finding.severity, Severity::kWarning) : finding.severity;
     told->Say("  %-12s %-24s %s%s\n", Name(severity), finding.kind.c_str(),
               internal::Printable(finding.message).c_str(),
               acceptable ? "" : InFlags(finding.option).c_str());

@@ -161,6 +161,11 @@ def _has_mesh(value):
     return isinstance(value, Poses) or _is_file(value) or _is_pair(value)
 
 
+def _leave_out(faces, what_has):
+    if faces is not None:
+        raise TypeError(f"faces: leave them out, since {what_has} a mesh already")
+
+
 def _of_pairs(pairs, name):
     """Poses of (vertices, faces) each, with the same faces."""
     first = np.asarray(pairs[0][1])
@@ -190,8 +195,7 @@ def _poses(poses, faces, more=(), name="poses"):
         own = _of_pairs(several, name)
     else:
         return _core.make_poses(poses, faces, name)
-    if faces is not None:
-        raise TypeError(f"faces: leave them out, since {name} have a mesh already")
+    _leave_out(faces, f"{name} have")
     return own
 
 
@@ -422,8 +426,7 @@ def film_strip(shapes, faces=None, *more, **options):
     Image
     """
     if isinstance(shapes, Path):
-        if faces is not None:
-            raise TypeError("faces: leave them out, since the path has a mesh already")
+        _leave_out(faces, "the path has")
         return shapes._film_strip(options)
     return _core.film_strip(_poses(shapes, faces, more, "shapes"), options)
 
@@ -475,8 +478,7 @@ def _path(path, faces, geodesic, report, name):
     if not isinstance(path, Path):
         poses = _poses(path, faces, name=name)
         return _told(GeodesicResult(*_core.interpolate(poses, dict(geodesic), report))).path
-    if faces is not None:
-        raise TypeError(f"faces: leave them out, since {name} has a mesh already")
+    _leave_out(faces, f"{name} has")
     return path
 
 
@@ -521,11 +523,11 @@ def skin(shapes, faces=None, *more, bones=20, progress=None, **options):
         if _count(bones, "bones") < 1:
             raise ValueError(f"bones: must be 1 or more, or 'auto', not {bones!r}")
     options["bones"] = 0 if bones == "auto" else bones
-    if not isinstance(shapes, Path):
+    if isinstance(shapes, Path):
+        _leave_out(faces, "the path has")
+    else:
         poses = _poses(shapes, faces, more, "shapes")
         shapes = Path(poses, Metric(poses[:1], poses))
-    elif faces is not None:
-        raise TypeError("faces: leave them out, since the path has a mesh already")
     with told(progress) as report:
         result = _told(_core.skin(shapes, options, report))
     for warning in result.summary.warnings:

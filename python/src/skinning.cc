@@ -39,6 +39,12 @@ py::array_t<double> Transforms(const SkinnedPath& path) {
   return all;
 }
 
+std::vector<std::string> Names(const SkinnedPath& path) {
+  std::vector<std::string> names;
+  for (const Joint& joint : path.joints) names.push_back(joint.name);
+  return names;
+}
+
 std::vector<int> Parents(const SkinnedPath& path) {
   std::vector<int> parents;
   for (const Joint& joint : path.joints) parents.push_back(joint.parent);
@@ -107,9 +113,7 @@ py::tuple PackSkinning(const SkinningResult& skinning) {
   mesh.connectivity = path.connectivity;
   mesh.shapes = {path.rest};
   mesh.soup = FrameSoup(*path.connectivity, path.appearance);
-  std::vector<std::string> names;
-  for (const Joint& joint : path.joints) names.push_back(joint.name);
-  return py::make_tuple(Pack(mesh), path.parameters, names, Parents(path),
+  return py::make_tuple(Pack(mesh), path.parameters, Names(path), Parents(path),
                         FromMatrix(JointNumbers(path)), FromMatrix(MotionNumbers(path)),
                         FromMatrix(path.bones), FromMatrix(path.weights), path.provenance,
                         skinning.summary, FromMatrix(skinning.summary.vertex_errors),
@@ -152,12 +156,7 @@ SkinningResult UnpackSkinning(const py::tuple& state) {
 void BindSkeleton(py::class_<SkinningResult>* skinning) {
   (*skinning)
       .def_property_readonly(
-          "names",
-          [](const SkinningResult& self) {
-            std::vector<std::string> names;
-            for (const Joint& joint : self.path.joints) names.push_back(joint.name);
-            return names;
-          },
+          "names", [](const SkinningResult& self) { return Names(self.path); },
           "Of the joints, as the file has them.")
       .def_property_readonly(
           "parents",

@@ -26,6 +26,15 @@ FLAG_GROUP(mesh, "Input", "");
 
 namespace shapespace::tools {
 
+ReadOptions MeshOptionsFromFlags() {
+  ReadOptions options;
+  options.allow_mirrored = FLAGS_allow_mirrored;
+  options.allow_mismatch = FLAGS_allow_mismatch;
+  options.allow_nonmanifold = FLAGS_allow_nonmanifold;
+  options.open_seams = FLAGS_open_seams;
+  return options;
+}
+
 char MirrorFromFlags() {
   if (FLAGS_mirror.empty()) return 0;
   if (FLAGS_mirror != "x" && FLAGS_mirror != "y" && FLAGS_mirror != "z") {

@@ -38,14 +38,10 @@ std::vector<std::string> WithStiffeners(std::vector<std::string> files) {
 namespace {
 
 ReadOptions OptionsFromFlags(bool tie = true) {
-  ReadOptions options;
+  ReadOptions options = MeshOptionsFromFlags();
+  options.mirror = MirrorFromFlags();
   options.stiffeners = FLAGS_stiffeners;
   options.loose_components = FLAGS_loose_components || !tie;
-  options.allow_nonmanifold = FLAGS_allow_nonmanifold;
-  options.open_seams = FLAGS_open_seams;
-  options.mirror = MirrorFromFlags();
-  options.allow_mirrored = FLAGS_allow_mirrored;
-  options.allow_mismatch = FLAGS_allow_mismatch;
   options.allow_outside_files = FLAGS_allow_outside_files;
   return options;
 }
@@ -114,9 +110,7 @@ Poses ReadPoseOf(const Path& path, const std::string& path_file, const std::stri
   }
   for (const Finding& finding : CheckSameMesh(reference, pose)) {
     if (finding.different_meshes) throw DifferentMeshes(finding.message, path_file, file);
-    if (finding.severity == Severity::kFatal ||
-        (finding.severity == Severity::kMirrored && !FLAGS_allow_mirrored) ||
-        (finding.severity == Severity::kDoubtful && !FLAGS_allow_mismatch)) {
+    if (IsRefused(finding, MeshOptionsFromFlags())) {
       throw MismatchError(finding.message, finding.option);
     }
     Warn(finding.message);

@@ -1,9 +1,11 @@
 #include <shapespace/files/point_cache.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <ostream>
 #include <string_view>
+#include <utility>
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/atomic_file.h>

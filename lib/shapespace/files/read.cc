@@ -104,6 +104,24 @@ Soup First(std::vector<Soup> poses) {
   return std::move(poses[0]);
 }
 
+// Calls `add` with each pose of the files.
+template <typename Add>
+void ForPoses(const std::vector<std::string>& files, bool allow_outside_files, const Add& add) {
+  Soup mesh;  // of the point caches that follow it
+  for (size_t i = 0; i < files.size(); ++i) {
+    if (i > 0 && IsPointCache(files[i])) {
+      ForFrames(files[i], mesh, add);
+      continue;
+    }
+    std::vector<Soup> soups = ReadSoups(files[i], allow_outside_files);
+    if (i + 1 < files.size() && IsPointCache(files[i + 1])) {
+      mesh = First(std::move(soups));
+    } else {
+      for (Soup& pose : soups) add(std::move(pose));
+    }
+  }
+}
+
 /// Sorts findings into warnings and errors. If several are fatal, the first three are reported,
 /// because the others mostly follow from them.
 class FindingPolicy {
@@ -139,11 +157,7 @@ class FindingPolicy {
     auto& [message, option, different_meshes] = refusal;
     int reported = 0;
     for (const Finding& finding : findings) {
-      const bool fatal =
-          finding.severity == Severity::kFatal ||
-          (finding.severity == Severity::kMirrored && !options_.allow_mirrored) ||
-          (finding.severity == Severity::kDoubtful && !options_.allow_mismatch) ||
-          (finding.severity == Severity::kNonManifold && !options_.allow_nonmanifold);
+      const bool fatal = IsRefused(finding, options_);
       // With an option, the call would do what it refuses only if it is that of all of them.
       if (fatal) option = reported == 0 || option == finding.option ? finding.option : "";
       different_meshes = different_meshes || finding.different_meshes;
@@ -301,25 +315,25 @@ std::vector<std::pair<int, int>> ReadStiffeners(const std::string& file, int num
   return pairs;
 }
 
+bool IsRefused(const Finding& finding, const ReadOptions& options) {
+  switch (finding.severity) {
+    case Severity::kNonManifold:
+      return !options.allow_nonmanifold;
+    case Severity::kMirrored:
+      return !options.allow_mirrored;
+    case Severity::kDoubtful:
+      return !options.allow_mismatch;
+    case Severity::kFatal:
+      return true;
+    default:
+      return false;
+  }
+}
+
 Poses ReadPoses(const std::vector<std::string>& files, const ReadOptions& options) {
   if (files.empty()) throw FileError("no mesh file is named; at least one is needed");
-  return Collect(
-      [&](const auto& add) {
-        Soup mesh;  // of the point caches that follow it
-        for (size_t i = 0; i < files.size(); ++i) {
-          if (i > 0 && IsPointCache(files[i])) {
-            ForFrames(files[i], mesh, add);
-            continue;
-          }
-          std::vector<Soup> soups = ReadSoups(files[i], options.allow_outside_files);
-          if (i + 1 < files.size() && IsPointCache(files[i + 1])) {
-            mesh = First(std::move(soups));
-          } else {
-            for (Soup& pose : soups) add(std::move(pose));
-          }
-        }
-      },
-      options);
+  return Collect([&](const auto& add) { ForPoses(files, options.allow_outside_files, add); },
+                 options);
 }
 
 Poses MakePoses(std::vector<Soup> soups, const ReadOptions& options) {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include <shapespace/mesh/check.h>
 #include <shapespace/mesh/connectivity.h>
 #include <shapespace/mesh/shape.h>
 #include <shapespace/mesh/soup.h>
@@ -97,6 +98,9 @@ struct ReadOptions {
   /// says how many; shapes have the vertices of the file all the same.
   bool open_seams = false;
 };
+
+/// Whether the options refuse a mesh or a pose with this finding.
+bool IsRefused(const Finding& finding, const ReadOptions& options);
 
 /// Reads one or more files, with all poses that they have, as poses of the first one's
 /// connectivity. The frames of a point cache (`ReadPointCache`) are poses of the mesh in the file

@@ -53,11 +53,20 @@ function offerBones(scenes: PathScene[], meshes: BlendedMesh[], stage: Stage): (
     bones.visible = false;
     meshes[i].add(bones);
   });
+  let shown = 0;
+  const place = () =>
+    all.forEach((bones, i) => {
+      if (bones?.visible) bones.show(blendAt(scenes[i], shown));
+    });
   box('bones', false, (on) => {
     for (const bones of all) if (bones) bones.visible = on;
+    place();
     stage.draw();
   });
-  return (place) => all.forEach((bones, i) => bones?.show(blendAt(scenes[i], place)));
+  return (now) => {
+    shown = now;
+    place();
+  };
 }
 
 function showLegend(title: string, colours: string, start: string, end: string): void {

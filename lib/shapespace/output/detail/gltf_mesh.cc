@@ -212,14 +212,7 @@ std::vector<Part> PartsByMaterial(const Connectivity& connectivity, const CutMes
     }
     return {lines};
   }
-  std::vector<std::vector<int>> indices(appearance.materials.names.size() + 1);  // last: of none
-  const std::vector<int>& material_of = appearance.materials.of_polygon;
-  const std::vector<int> polygons = PolygonsOfTriangles(connectivity);
-  for (size_t f = 0; f < polygons.size(); ++f) {
-    const int material = material_of.empty() ? -1 : material_of[polygons[f]];
-    std::vector<int>& part = material < 0 ? indices.back() : indices[material];
-    for (const int vertex : mesh.triangles.col(f)) part.push_back(vertex);
-  }
+  std::vector<std::vector<int>> indices = CornersByMaterial(connectivity, mesh, appearance);
   const std::vector<std::optional<Material>> described =
       ReadMaterials(appearance, allow_outside_files, warnings);
   std::vector<Part> parts;

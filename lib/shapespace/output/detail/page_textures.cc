@@ -36,22 +36,14 @@ std::optional<PageTextures> FindPageTextures(const Connectivity& connectivity,
   const CutMesh cut = CutAtSeams(connectivity, appearance);
   textures.source = cut.source;
   textures.coordinates = cut.texture;
-  const std::vector<int> polygons = PolygonsOfTriangles(connectivity);
-  std::vector<std::vector<int>> triangles(textures.parts.size());
-  for (int f = 0; f < connectivity.NumTriangles(); ++f) {
-    const int material = materials.of_polygon[polygons[f]];
-    triangles[material < 0 ? triangles.size() - 1 : material].push_back(f);
+  // Of vertices that a file stores several times, the surface has the first.
+  for (Eigen::Index corner = 0; corner < cut.triangles.size(); ++corner) {
+    textures.source[cut.triangles(corner)] = connectivity.Triangles()(corner);
   }
-  for (size_t i = 0; i < triangles.size(); ++i) {
-    textures.parts[i].triangles = static_cast<int>(triangles[i].size());
-    for (const int f : triangles[i]) {
-      for (int k = 0; k < 3; ++k) {
-        const int drawn = cut.triangles(k, f);
-        textures.corners.push_back(drawn);
-        // Of vertices that a file stores several times, the surface has the first.
-        textures.source[drawn] = connectivity.Triangles()(k, f);
-      }
-    }
+  const std::vector<std::vector<int>> corners = CornersByMaterial(connectivity, cut, appearance);
+  for (size_t i = 0; i < corners.size(); ++i) {
+    textures.parts[i].triangles = static_cast<int>(corners[i].size() / 3);
+    textures.corners.insert(textures.corners.end(), corners[i].begin(), corners[i].end());
   }
   return textures;
 }

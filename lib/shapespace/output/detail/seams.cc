@@ -63,4 +63,17 @@ CutMesh CutAtSeams(const Connectivity& connectivity, const Appearance& appearanc
   return mesh;
 }
 
+std::vector<std::vector<int>> CornersByMaterial(const Connectivity& connectivity,
+                                                const CutMesh& mesh, const Appearance& appearance) {
+  std::vector<std::vector<int>> corners(appearance.materials.names.size() + 1);
+  const std::vector<int>& material_of = appearance.materials.of_polygon;
+  const std::vector<int> polygons = PolygonsOfTriangles(connectivity);
+  for (size_t f = 0; f < polygons.size(); ++f) {
+    const int material = material_of.empty() ? -1 : material_of[polygons[f]];
+    std::vector<int>& part = material < 0 ? corners.back() : corners[material];
+    for (const int vertex : mesh.triangles.col(f)) part.push_back(vertex);
+  }
+  return corners;
+}
+
 }  // namespace shapespace::internal

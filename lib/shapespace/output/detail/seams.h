@@ -23,6 +23,11 @@ struct CutMesh {
 /// Cuts a mesh where its texture has seams. An empty appearance leaves it as it is.
 CutMesh CutAtSeams(const Connectivity& connectivity, const Appearance& appearance);
 
+/// The corners of the cut mesh's triangles, three each, in a list for each material of the
+/// appearance, and as the last one those of triangles without a material.
+std::vector<std::vector<int>> CornersByMaterial(const Connectivity& connectivity,
+                                                const CutMesh& mesh, const Appearance& appearance);
+
 /// The polygon to which each triangle of the connectivity belongs.
 std::vector<int> PolygonsOfTriangles(const Connectivity& connectivity);
 

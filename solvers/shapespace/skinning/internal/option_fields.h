@@ -14,8 +14,7 @@ void ForOptions(Of<SkinningOptions>, const Visit& visit) {
         "Number of bones; 0: as few as are found with which the error is at most `error`.");
   visit("error", &SkinningOptions::error,
         "Where the number is to be found: the permitted root mean square distance of vertices from "
-        "their places, as a "
-        "share of half the diagonal of the rest pose.");
+        "their places, as a share of half the diagonal of the rest pose.");
   visit("most_bones", &SkinningOptions::most_bones,
         "Where the number is to be found: no more than these.");
   visit("weights_per_vertex", &SkinningOptions::weights_per_vertex,
