@@ -6,7 +6,9 @@
 #include <Eigen/Cholesky>
 
 #include <shapespace/skinning/detail/joint_tree.h>
+#include <shapespace/skinning/detail/near_bones.h>
 #include <shapespace/skinning/detail/simplex_minimum.h>
+#include <shapespace/skinning/detail/vertex_weights.h>
 
 #include "solvers/skinning_bodies.h"
 
@@ -127,6 +129,72 @@ TEST(SimplexMinimum, RemovesOneCoordinateAndKeepsTheSum) {
   point.Remove(0);
   EXPECT_EQ(point.index[0], 7);
   EXPECT_EQ(point.weight[0], 1);
+}
+
+// A row of ten points, and an eleventh by itself.
+MovingPoints Row() {
+  MovingPoints points;
+  points.moved.resize(6, 11);
+  std::vector<int> begin = {0}, items;
+  for (int p = 0; p < 11; ++p) {
+    points.moved.col(p) << p, 0, 0, p, std::sin(0.7 * p), std::cos(p);
+    points.vertices.push_back(p);
+    points.component_of.push_back(p / 10);
+    if (p > 0 && p < 10) items.push_back(p - 1);
+    if (p < 9) items.push_back(p + 1);
+    begin.push_back(static_cast<int>(items.size()));
+  }
+  points.neighbours = {std::move(begin), std::move(items)};
+  points.num_components = 2;
+  return points;
+}
+
+TEST(NearBones, AreAtMostTwoRegionsAway) {
+  const MovingPoints points = Row();
+  // Bone b has points 2 b and 2 b + 1, bone 5 the last; bone 6 has none.
+  VertexWeights weights = OneBoneEach({0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5}, 2);
+  weights.bones(1, 1) = 4;
+  weights.weights.col(1) << 0.9, 0.1;
+  const NearBones near(points, weights, 7);
+  std::vector<int> bones;
+  near.Find(0, &bones);
+  EXPECT_EQ(bones, (std::vector<int>{0, 1, 2, 5, 6}));
+  near.Find(1, &bones);  // moved by bone 4 already
+  EXPECT_EQ(bones, (std::vector<int>{0, 1, 2, 4, 5, 6}));
+  near.Find(5, &bones);
+  EXPECT_EQ(bones, (std::vector<int>{0, 1, 2, 3, 4, 5, 6}));
+  near.Find(9, &bones);
+  EXPECT_EQ(bones, (std::vector<int>{2, 3, 4, 5, 6}));
+}
+
+TEST(FitWeights, LowersErrorsAndDifferencesTogether) {
+  const MovingPoints points = Row();
+  Bones bones;
+  bones.shapes = 2;
+  for (int b = 0; b < 4; ++b) {
+    bones.Append();
+    FitBone(points, {2 * b, 2 * b + 1, 2 * b + 2}, b, &bones);
+  }
+  for (const double smoothness : {0.0, 0.3, 1e3}) {
+    VertexWeights weights = OneBoneEach({0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 2}, 3);
+    const auto objective = [&] {
+      Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(4, 11);
+      for (int p = 0; p < 11; ++p) {
+        for (int k = 0; k < 3; ++k) dense(weights.bones(k, p), p) += weights.weights(k, p);
+      }
+      return SquaredErrors(points, bones, weights).sum() +
+             smoothness * (dense.middleCols(1, 9) - dense.leftCols(9)).squaredNorm();
+    };
+    double last = objective();
+    const double first = last;
+    for (int i = 0; i < 30; ++i) {
+      FitWeights(points, bones, smoothness, &weights);
+      const double now = objective();
+      EXPECT_LE(now, last * (1 + 1e-12)) << smoothness << ", " << i;
+      last = now;
+    }
+    EXPECT_LT(last, 0.9 * first);
+  }
 }
 
 }  // namespace

@@ -140,6 +140,24 @@ TEST(Skin, IsValidAndWhatItsSummarySays) {
   EXPECT_LT((result.path.Skinned(0) - path.Placed(0)).cwiseAbs().maxCoeff(), 1e-12);
 }
 
+// Between two shapes, many weights reproduce the motion: the smooth ones are taken.
+TEST(Skin, WeightsAreSmooth) {
+  const SkinnedBody body = MakeQuadruped(2000);
+  const Path path = PathThrough(body.connectivity, {body.pose("stand"), body.pose("rear")});
+  const Eigen::MatrixXd dense = DenseWeights(Skin(path, WithBones(20)).path);
+  double roughness = 0;
+  for (const auto& edge : body.connectivity->Edges().colwise()) {
+    roughness += (dense.col(edge(0)) - dense.col(edge(1))).squaredNorm();
+  }
+  EXPECT_LT(roughness, 500);  // 970 without regard to neighbours
+}
+
+TEST(Skin, GivesAsManyBonesAsAreAskedFor) {
+  const SkinningSummary summary = Skin(QuadrupedPath(1500), WithBones(100)).summary;
+  EXPECT_EQ(summary.bones, 100);
+  EXPECT_TRUE(summary.warnings.empty());
+}
+
 TEST(Skin, MoreFreedomLowersTheError) {
   const Path path = QuadrupedPath(1500);
   const auto error = [&](const SkinningOptions& options) {

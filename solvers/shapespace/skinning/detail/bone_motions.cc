@@ -13,9 +13,6 @@ namespace {
 
 using Matrix34 = Eigen::Matrix<double, 3, 4>;
 
-// Steps in one shape between two fits of the weights. More gain little before weights follow.
-constexpr int kSteps = 2;
-
 // Levenberg and Marquardt: the damping, as a share of the diagonal, begins small, because steps are
 // small after the first iterations, and a step is given up when it would have to be negligible.
 constexpr double kFirstDamping = 1e-4, kMostDamping = 1e6, kDampingFactor = 10;
@@ -84,18 +81,11 @@ class ShapeFit {
     energy_ = Energy(matrices_);
   }
 
+  // One step. More gain little before weights follow.
   void Run() {
+    Linearise();
     double damping = kFirstDamping;
-    for (int step = 0; step < kSteps; ++step) {
-      Linearise();
-      bool lower = Step(damping);
-      while (!lower && damping < kMostDamping) {
-        damping *= kDampingFactor;
-        lower = Step(damping);
-      }
-      if (!lower) break;
-      damping /= kDampingFactor;
-    }
+    while (!Step(damping) && damping < kMostDamping) damping *= kDampingFactor;
     for (int b = 0; b < bones_.Count(); ++b) Motion(b) = motions_[b];
   }
 

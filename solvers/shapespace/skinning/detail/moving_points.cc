@@ -22,6 +22,27 @@ IndexLists NeighboursOfPoints(const Connectivity& connectivity, const std::vecto
   return {std::move(begin), std::move(items)};
 }
 
+// Numbers the components of points that edges connect.
+void FindComponents(MovingPoints* points) {
+  points->component_of.assign(points->vertices.size(), -1);
+  std::vector<int> open;
+  const auto enter = [&](int p) {
+    if (points->component_of[p] >= 0) return false;
+    points->component_of[p] = points->num_components;
+    open.push_back(p);
+    return true;
+  };
+  for (size_t first = 0; first < points->vertices.size(); ++first) {
+    if (!enter(static_cast<int>(first))) continue;
+    while (!open.empty()) {
+      const int p = open.back();
+      open.pop_back();
+      for (const int q : points->neighbours[p]) enter(q);
+    }
+    ++points->num_components;
+  }
+}
+
 }  // namespace
 
 MovingPoints MakeMovingPoints(const Path& path, int rest) {
@@ -32,6 +53,7 @@ MovingPoints MakeMovingPoints(const Path& path, int rest) {
     if (connectivity.Representative(v) == v) points.vertices.push_back(v);
   }
   points.neighbours = NeighboursOfPoints(connectivity, points.vertices);
+  FindComponents(&points);
   const int shapes = path.NumShapes();
   points.moved.resize(3 * shapes, points.vertices.size());
   points.centroids.resize(3, shapes);

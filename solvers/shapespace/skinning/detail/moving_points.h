@@ -14,12 +14,14 @@ namespace shapespace::internal {
 /// and in a frame in which figures do not depend on the user's: every shape has its centroid at the
 /// origin, and the rest pose has root mean square radius 1.
 struct MovingPoints {
-  Eigen::MatrixXd moved;      ///< 3 s x n: a column per point, three rows per shape
-  int rest = 0;               ///< the shape that is the rest pose
-  double size = 1;            ///< what was length 1 here is that long in the path's shapes
-  Eigen::MatrixXd centroids;  ///< 3 x s: of each shape of the path, in its shapes' unit
-  std::vector<int> vertices;  ///< the path's vertex of each point
-  IndexLists neighbours;      ///< of each point, along edges
+  Eigen::MatrixXd moved;          ///< 3 s x n: a column per point, three rows per shape
+  int rest = 0;                   ///< the shape that is the rest pose
+  double size = 1;                ///< what was length 1 here is that long in the path's shapes
+  Eigen::MatrixXd centroids;      ///< 3 x s: of each shape of the path, in its shapes' unit
+  std::vector<int> vertices;      ///< the path's vertex of each point
+  IndexLists neighbours;          ///< of each point, along edges
+  std::vector<int> component_of;  ///< of each point: the part of the mesh that edges connect
+  int num_components = 0;
 
   int NumPoints() const { return static_cast<int>(moved.cols()); }
   int NumShapes() const { return static_cast<int>(moved.rows() / 3); }

@@ -16,13 +16,6 @@ struct NearRigidClusters {
   std::vector<int> bone_of;  ///< of each point
 };
 
-/// Has `bone` begin anew where errors are the greatest: it moves as a patch of points does, of
-/// a quarter of a bone's share of all points, or fewer if that does not lower the error there. The
-/// place is where errors are the greatest on average over neighbours, because the greatest of all
-/// is often an outlier. `squared_errors`, of each point, are those before.
-void BeginBone(const MovingPoints& points, const Eigen::VectorXd& squared_errors, int count,
-               int bone, Bones* bones);
-
 /// Clusters by which the motion is best explained if every point follows one of `count` bones. They
 /// need not be connected, so that bodies of several components are no special case. As in the
 /// vector quantisation of Y. Linde, A. Buzo, R. M. Gray ("An Algorithm for Vector Quantizer

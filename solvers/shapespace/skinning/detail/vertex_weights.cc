@@ -1,26 +1,107 @@
 #include <shapespace/skinning/detail/vertex_weights.h>
 
+#include <shapespace/skinning/detail/near_bones.h>
 #include <shapespace/skinning/detail/simplex_minimum.h>
 
 namespace shapespace::internal {
 namespace {
 
-SimplexPoint PointOf(const VertexWeights& weights, int p) {
-  SimplexPoint point;
-  for (Eigen::Index k = 0; k < weights.weights.rows(); ++k) {
-    if (weights.weights(k, p) > 0) point.Append(weights.bones(k, p), weights.weights(k, p));
-  }
-  return point;
-}
-
-void SetPoint(const SimplexPoint& point, int p, VertexWeights* weights) {
+void SetPoint(const SimplexPoint& point, const std::vector<int>& bones, int p,
+              VertexWeights* weights) {
   weights->bones.col(p).setZero();
   weights->weights.col(p).setZero();
   for (int k = 0; k < point.count; ++k) {
-    weights->bones(k, p) = point.index[k];
+    weights->bones(k, p) = bones[point.index[k]];
     weights->weights(k, p) = point.weight[k];
   }
 }
+
+// Fits the weights of one point after another. Has the working memory.
+class PointFit {
+ public:
+  PointFit(const MovingPoints& points, const Bones& bones, double smoothness,
+           const VertexWeights& old, const NearBones& near)
+      : points_(points),
+        bones_(bones),
+        smoothness_(smoothness),
+        old_(old),
+        near_(near),
+        place_(bones.Count()),
+        expected_(bones.Count()) {}
+
+  void Fit(int p, VertexWeights* weights) {
+    near_.Find(p, &candidates_);
+    for (size_t i = 0; i < candidates_.size(); ++i) place_[candidates_[i]] = static_cast<int>(i);
+    SetGram(p);
+    AddSmoothness(p);
+    SimplexPoint before;
+    for (Eigen::Index k = 0; k < old_.weights.rows(); ++k) {
+      if (old_.weights(k, p) > 0) before.Append(place_[old_.bones(k, p)], old_.weights(k, p));
+    }
+    SimplexPoint best = before;
+    double least = ValueAt(gram_, before);
+    const auto consider = [&](const SimplexPoint& candidate) {
+      const double value = ValueAt(gram_, candidate);
+      if (!(value < least)) return;
+      least = value;
+      best = candidate;
+    };
+    SimplexPoint same_bones = before;
+    MinimiseOnSupport(gram_, &same_bones);
+    consider(same_bones);
+    SimplexPoint any_bones = before;
+    MinimiseOnSimplex(gram_, &any_bones, &gradient_);
+    RemoveLeastUseful(gram_, static_cast<int>(old_.weights.rows()), &any_bones);
+    consider(any_bones);
+    SetPoint(best, candidates_, p, weights);
+  }
+
+ private:
+  // Weights have sum 1, so that the residual is the mean of those of the single bones, and the
+  // squared error is w^T gram w.
+  void SetGram(int p) {
+    const Eigen::Vector4d rest = points_.Rest(p).homogeneous();
+    residuals_.resize(points_.moved.rows(), candidates_.size());
+    for (size_t i = 0; i < candidates_.size(); ++i) {
+      residuals_.col(i) = -points_.moved.col(p);
+      residuals_.col(i).noalias() += bones_.MatricesOf(candidates_[i]) * rest;
+    }
+    gram_.noalias() = residuals_.transpose() * residuals_;
+  }
+
+  // Adds 2 n s |w - m|^2: n is the number of neighbours, s the smoothness, and m the mean of the
+  // point's own old weights and of its neighbours' mean. If all points change at once, the sum of
+  // this is at least what s |w - w'|^2, summed over edges, rises by.
+  void AddSmoothness(int p) {
+    const auto& neighbours = points_.neighbours[p];
+    if (neighbours.size() == 0) return;
+    expected_.setZero();
+    const auto add = [&](int q, double share) {
+      for (Eigen::Index k = 0; k < old_.weights.rows(); ++k) {
+        expected_(old_.bones(k, q)) += share * old_.weights(k, q);
+      }
+    };
+    add(p, 0.5);
+    for (const int q : neighbours) add(q, 0.5 / neighbours.size());
+    // The residual of each single bone b is e_b - m.
+    const double factor = 2 * smoothness_ * neighbours.size();
+    const auto of = expected_(candidates_).array();
+    gram_.array() += factor * expected_.squaredNorm();
+    gram_.array().colwise() -= factor * of;
+    gram_.array().rowwise() -= factor * of.transpose();
+    gram_.diagonal().array() += factor;
+  }
+
+  const MovingPoints& points_;
+  const Bones& bones_;
+  const double smoothness_;
+  const VertexWeights& old_;
+  const NearBones& near_;
+  std::vector<int> candidates_;
+  std::vector<int> place_;  // in the candidates
+  Eigen::MatrixXd residuals_, gram_;
+  Eigen::VectorXd gradient_, expected_;
+};
 
 }  // namespace
 
@@ -53,38 +134,13 @@ Eigen::VectorXd SquaredErrors(const MovingPoints& points, const Bones& bones,
   return errors;
 }
 
-void FitWeights(const MovingPoints& points, const Bones& bones, VertexWeights* weights) {
-  const int most = static_cast<int>(weights->weights.rows());
+void FitWeights(const MovingPoints& points, const Bones& bones, double smoothness,
+                VertexWeights* weights) {
+  const VertexWeights old = *weights;
+  const NearBones near(points, old, bones.Count());
   ForRunsOfPoints(points.NumPoints(), [&](int begin, int end) {
-    Eigen::MatrixXd residuals(points.moved.rows(), bones.Count());
-    Eigen::MatrixXd gram(bones.Count(), bones.Count());
-    Eigen::VectorXd gradient(bones.Count());
-    for (int p = begin; p < end; ++p) {
-      const Eigen::Vector4d rest = points.Rest(p).homogeneous();
-      // Weights have sum 1, so that the residual is the mean of those of the single bones.
-      for (int b = 0; b < bones.Count(); ++b) {
-        residuals.col(b) = -points.moved.col(p);
-        residuals.col(b).noalias() += bones.MatricesOf(b) * rest;
-      }
-      gram.noalias() = residuals.transpose() * residuals;
-      const SimplexPoint before = PointOf(*weights, p);
-      SimplexPoint best = before;
-      double least = ValueAt(gram, before);
-      const auto consider = [&](const SimplexPoint& candidate) {
-        const double value = ValueAt(gram, candidate);
-        if (!(value < least)) return;
-        least = value;
-        best = candidate;
-      };
-      SimplexPoint same_bones = before;
-      MinimiseOnSupport(gram, &same_bones);
-      consider(same_bones);
-      SimplexPoint any_bones = before;
-      MinimiseOnSimplex(gram, &any_bones, &gradient);
-      RemoveLeastUseful(gram, most, &any_bones);
-      consider(any_bones);
-      SetPoint(best, p, weights);
-    }
+    PointFit fit(points, bones, smoothness, old, near);
+    for (int p = begin; p < end; ++p) fit.Fit(p, weights);
   });
 }
 

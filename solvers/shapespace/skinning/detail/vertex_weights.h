@@ -22,11 +22,15 @@ VertexWeights OneBoneEach(const std::vector<int>& bone_of, int weights_per_verte
 Eigen::VectorXd SquaredErrors(const MovingPoints& points, const Bones& bones,
                               const VertexWeights& weights);
 
-/// Weights of each point by least squares over all shapes, for the bones as they move: the minimum
-/// over the simplex, of which the least useful bones are left out until there are no more than the
-/// rows of `weights`; then the minimum over these. No point's error rises, because its former bones
-/// are tried too.
-void FitWeights(const MovingPoints& points, const Bones& bones, VertexWeights* weights);
+/// Weights of each point by least squares over all shapes, for the bones as they move, among the
+/// bones that may move it (near_bones.h): the minimum over the simplex of the squared error plus
+/// `smoothness` times the squared differences from its neighbours' weights; then the least useful
+/// bones are left out until there are no more than the rows of `weights`.
+///
+/// The sum over points of squared errors and, for each edge, `smoothness` times the squared
+/// difference of its ends' weights does not rise.
+void FitWeights(const MovingPoints& points, const Bones& bones, double smoothness,
+                VertexWeights* weights);
 
 }  // namespace shapespace::internal
 

@@ -14,7 +14,7 @@ namespace {
 // pose, keeps its sides of the mean.
 constexpr double kNoArea = 1e-6;
 
-TriangleFrame Frame(const Shape& shape, const Eigen::Vector3i& corners) {
+TriangleFrame PreviewFrame(const Shape& shape, const Eigen::Vector3i& corners) {
   return {shape.col(corners(0)), shape.col(corners(1)), shape.col(corners(2))};
 }
 
@@ -27,7 +27,8 @@ Eigen::Matrix3Xd WeightsOfSides(const PoseModes& modes) {
   const Eigen::Matrix3Xi& triangles = modes.metric->connectivity->Triangles();
   Eigen::Matrix3Xd weights(3, triangles.cols());
   for (Eigen::Index f = 0; f < triangles.cols(); ++f) {
-    const double area = 0.5 * std::abs(Frame(modes.mean, triangles.col(f)).edges.determinant());
+    const double area =
+        0.5 * std::abs(PreviewFrame(modes.mean, triangles.col(f)).edges.determinant());
     const Eigen::Matrix3d sides = TriangleSides(modes.mean, triangles.col(f));
     for (int k = 0; k < 3; ++k) {
       const double squared = sides.col(k).squaredNorm();
@@ -48,14 +49,15 @@ TrianglePreview::TrianglePreview(const PoseModes& modes)
   for (auto& changes : changes_) changes.setZero(6, triangles_.cols());
   ForIndices(static_cast<int>(triangles_.cols()), [&](int f) {
     const Eigen::Vector3i corners = triangles_.col(f);
-    const TriangleFrame mean = Frame(modes.mean, corners);
+    const TriangleFrame mean = PreviewFrame(modes.mean, corners);
     rotations_[f] = Eigen::Quaterniond(mean.axes);
     bool has_area = HasArea(mean);
-    for (const Shape& pose : modes.poses) has_area = has_area && HasArea(Frame(pose, corners));
+    for (const Shape& pose : modes.poses)
+      has_area = has_area && HasArea(PreviewFrame(pose, corners));
     if (!has_area) return;
     const Eigen::Matrix2d inverse = mean.edges.inverse();
     for (int i = 0; i < modes.NumPoses(); ++i) {
-      const TriangleDeformation pose(Frame(modes.poses[i], corners), inverse);
+      const TriangleDeformation pose(PreviewFrame(modes.poses[i], corners), inverse);
       Eigen::Matrix<double, 6, 1> change;
       change << Log(rotations_[f].conjugate() * pose.rotation), Log(pose.stretch).Vector();
       for (int k = 0; k < modes.NumModes(); ++k) {
