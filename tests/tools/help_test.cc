@@ -157,18 +157,27 @@ TEST_F(HelpTest, DefaultsReadAsTheyWouldBeTyped) {
   ExpectLacks(help, "00000");
 }
 
-TEST_F(HelpTest, BashCompletesTheFlags) {
-  File("complete.sh", "source '" SHAPESPACE_COMPLETION
-                      "'\n"
-                      "COMP_WORDS=(" SHAPESPACE_TOOLS_DIR
-                      "/shape-transfer a.obj --me)\n"
-                      "COMP_CWORD=2\n"
-                      "_shapespace \"${COMP_WORDS[0]}\"\n"
-                      "echo \"${COMPREPLY[@]}\" >replies\n"
-                      "complete -p shape-transfer >registered\n");
-  ASSERT_EQ(std::system(("cd '" + Path("") + "' && bash complete.sh").c_str()), 0);
-  EXPECT_EQ(Content(Path("replies")), "--method --metric --memory_limit\n");
+TEST_F(HelpTest, BashCompletesFlagsValuesAndBodies) {
+  const auto replies = [&](const std::string& words) {
+    File("complete.sh", "source '" SHAPESPACE_COMPLETION
+                        "'\n"
+                        "COMP_WORDS=(" SHAPESPACE_TOOLS_DIR "/" +
+                            words +
+                            ")\n"
+                            "COMP_CWORD=$((${#COMP_WORDS[@]} - 1))\n"
+                            "_shapespace \"${COMP_WORDS[0]}\"\n"
+                            "echo \"${COMPREPLY[@]}\" >replies\n"
+                            "complete -p shape-transfer >registered\n");
+    EXPECT_EQ(std::system(("cd '" + Path("") + "' && bash complete.sh").c_str()), 0);
+    return Content(Path("replies"));
+  };
+  EXPECT_EQ(replies("shape-transfer a.obj --me"), "--method --metric --memory_limit\n");
   ExpectContains(Content(Path("registered")), "-F _shapespace shape-transfer");
+  EXPECT_EQ(replies("shape-interpolate a.obj --metric ''"), "strain isometric rigid paper\n");
+  EXPECT_EQ(replies("shape-interpolate --spline = n"), "natural not_a_knot\n");
+  EXPECT_EQ(replies("shape-interpolate --color ="), "plain deviation parts\n");
+  EXPECT_EQ(replies("shape-interpolate --output ''"), "\n");  // left to completion of files
+  EXPECT_EQ(replies("shape-body st"), "strip steffen\n");
 }
 
 TEST_F(HelpTest, VersionIsOneLine) {

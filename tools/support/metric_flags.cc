@@ -18,7 +18,7 @@ DEFINE_string(metric, "strain",
               "(strain 0, isometric 1), rigid (strain 0, rigid 1, bending 0), or paper (strain 0, "
               "isometric 1, bending 0, lambda 0.001, weighting uniform, discretization trapezoid); "
               "shape-deform has one of its own, deformation. Costs that are given as well replace "
-              "those of the preset");
+              "those of the preset (strain, isometric, rigid, paper)");
 DEFINE_string(
     stiffness, "",
     "file of factors on the cost of stretching and bending, one positive number per "

@@ -36,8 +36,8 @@ DEFINE_string(
     "Names must not contain commas");
 DEFINE_string(
     color, "plain",
-    "pictures, glb, usda, and frames in OBJ or PLY: plain, deviation (of edge lengths from "
-    "the first pose), or parts (regions that move nearly rigidly)");
+    "pictures, glb, usda, and frames in OBJ or PLY: deviation is that of edge lengths from the "
+    "first pose, parts are regions that move nearly rigidly (plain, deviation, parts)");
 
 DEFINE_double(unit, 1, "glb, usda: metres in one unit of the poses; 0.001 for millimetres");
 DEFINE_double(seconds, 4, "gif, apng, glb: duration");

@@ -11,10 +11,11 @@
 #include "support/option_flags.h"
 #include "support/tool.h"
 
-DEFINE_string(spline, "",
-              "move smoothly through three or more poses, without jumps of velocity: natural, "
-              "not_a_knot, clamped (beginning and ending at rest) or periodic (the motion goes on "
-              "from the last pose to the first)");
+DEFINE_string(
+    spline, "",
+    "move smoothly through three or more poses, without jumps of velocity; clamped begins "
+    "and ends at rest, periodic goes on from the last pose to the first (natural, "
+    "not_a_knot, clamped, periodic)");
 DEFINE_string(
     times, "",
     "with --spline: when the poses are met, ascending and separated by commas; for "
