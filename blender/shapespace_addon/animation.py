@@ -33,9 +33,7 @@ def has_keyframes(key) -> bool:
 
 
 def require_free(key) -> None:
-    """Raises a Problem if something other than keyframes decides on a key's value."""
-    if has_driver(key):
-        raise Problem(f"The value of '{key.name}' has a driver: remove it, or mute this shape key")
+    """Raises a Problem if keyframes cannot turn a key on and off."""
     if key.slider_min > 0 or key.slider_max < 1:
         raise Problem(
             f"The value of '{key.name}' cannot be 0 and 1: change Range Min and Range Max of this"

@@ -28,11 +28,17 @@ def require_editable(item) -> None:
 
 
 def require_free(item, names: list) -> None:
-    """Raises a Problem unless these keys can be animated."""
-    blocks = item.data.shape_keys.key_blocks
+    """Raises a Problem unless these keys can be animated. Those with drivers need not be."""
+    left = [item.data.shape_keys.reference_key.name, *driven(item, names)]
     for name in names:
-        if blocks[name] != item.data.shape_keys.reference_key:
-            animation.require_free(blocks[name])
+        if name not in left:
+            animation.require_free(item.data.shape_keys.key_blocks[name])
+
+
+def driven(item, names) -> list:
+    """Those of these keys whose values drivers decide on."""
+    blocks = item.data.shape_keys.key_blocks
+    return [name for name in names if animation.has_driver(blocks[name])]
 
 
 def add_poses(item, names: list, shapes) -> list:
@@ -46,8 +52,9 @@ def add_motion(
     """Shape keys for the shapes of a motion that are no poses, and keyframes for all.
 
     `poses` has the names of the keys of those that are; a key may be there twice. Keys that are
-    `unseen` are off all the time. What an earlier run added is replaced; poses that were
-    transferred stay, unless these are others. Returns what is worth saying.
+    `unseen` are off all the time. No key among them has a driver. What an earlier run added is
+    replaced; poses that were transferred stay, unless these are others. Returns what is worth
+    saying.
     """
     shape_keys = item.data.shape_keys
     blocks = shape_keys.key_blocks

@@ -196,7 +196,8 @@ class InBetweens(PosesOfSelection):
         motion = poses.frame.to_object(motion)
         if others:
             return self._place_new(context, first, poses, motion)
-        return self._put_through(context, first, motion, poses.names)
+        notes = self._put_through(context, first, motion, poses.names)
+        return notes + self._notes_on_drivers(shape_keys.driven(first, poses.names))
 
     def _place_new(self, context, first, poses, motion) -> list:
         """A copy of the first object as it is seen moves. It is alone selected, so that settings
@@ -212,18 +213,33 @@ class InBetweens(PosesOfSelection):
         return _add_copy(context, first, poses, self._new_name(), fill)
 
     def _put_through(self, context, item, motion, names: list) -> list:
-        """Writes the motion. On the ground poses are elsewhere than the keys of these names."""
-        if self._settings.ground and self._settings.result == "KEYS":
-            basis = item.data.shape_keys.reference_key.name
-            unseen = [name for name in names if name != basis]
-            return self._put(context, item, motion, {}, unseen=unseen)
-        return self._put(context, item, motion, self._at(names))
+        """Writes the motion. On the ground poses are elsewhere than the keys of these names, and
+        keys with drivers cannot be turned on and off: shapes of their own show these poses."""
+        if self._settings.result == "CACHE":
+            return self._put(context, item, motion, {})
+        at = self._at(names)
+        driven = shape_keys.driven(item, names)
+        free = {index: name for index, name in at.items() if name not in driven}
+        if not self._settings.ground:
+            return self._put(context, item, motion, free)
+        basis = item.data.shape_keys.reference_key.name
+        unseen = [name for name in dict.fromkeys(free.values()) if name != basis]
+        return self._put(context, item, motion, {}, unseen=unseen)
 
     def _at(self, names: list) -> dict:
         """The poses' names by their numbers in the motion, which may end with the first."""
-        if names and self._ends() == "periodic":
+        if self._ends() == "periodic":
             names = [*names, names[0]]
         return {pose * (self._settings.shapes + 1): name for pose, name in enumerate(names)}
+
+    def _notes_on_drivers(self, driven: list) -> list:
+        if not driven:
+            return []
+        names = ", ".join(f"'{name}'" for name in driven)
+        note = f"Drivers of {names} were ignored: these keys are poses as they are at value 1"
+        if self._settings.result == "KEYS":
+            note += ". Where a driver turns its key on, that is added to the motion"
+        return [note]
 
     def _new_name(self) -> str:
         return f"{self._objects[0]} in-betweens"

@@ -51,6 +51,17 @@ class MeshCache(Case):
         self.near(shapes[0], CUBE)
         self.near(shapes[2], bent_cube())
 
+    def test_drivers_of_keys_do_not_matter(self):
+        cube = self.cube()
+        driver = cube.data.shape_keys.key_blocks["bent"].driver_add("value").driver
+        driver.expression = "0.5"
+        work = self.begin(shapes=1, result="CACHE", cache_folder=str(self.folder))
+        work.wait()
+        (note,) = work.finish(bpy.context)
+        self.assertIn("'bent'", note)
+        self.near(seen(cube, 1), CUBE)
+        self.near(seen(cube, 3), bent_cube())
+
     def test_beside_the_blend_and_found_after_both_are_moved(self):
         cube = self.cube("a/b")
         self.save("walk.blend")

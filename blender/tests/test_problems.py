@@ -74,13 +74,6 @@ class Problems(Case):
         self.cube().scale = (1, 0, 1)
         self.all_refused("'cube' is scaled to zero along some direction")
 
-    def test_a_driven_value(self):
-        key = self.cube().data.shape_keys.key_blocks["bent"]
-        key.driver_add("value")
-        self.all_refused("'bent' has a driver: remove it, or mute")
-        key.mute = True
-        self.all_refused("one pose only")
-
     def test_a_value_that_cannot_be_one(self):
         self.cube().data.shape_keys.key_blocks["bent"].slider_max = 0.5
         self.all_refused("'bent' cannot be 0 and 1: change Range Min and Range Max")

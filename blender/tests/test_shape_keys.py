@@ -295,6 +295,45 @@ class ShapeKeys(Case):
         for i, frame in enumerate(frames):
             self.near(seen(animal, 1 + i), frame)
 
+    def driven_cube(self, expression):
+        """A cube whose pose `bent` has a driver, and another pose."""
+        cube = add_object("cube", CUBE, CUBE_FACES)
+        bent = add_key(cube, "bent", bent_cube())
+        add_key(cube, "wide", np.array(CUBE) * [2, 1, 1])
+        bent.driver_add("value").driver.expression = expression
+        return cube
+
+    def frames_of_driven_cube(self):
+        poses = [CUBE, bent_cube(), np.array(CUBE) * [2, 1, 1]]
+        return self.frames(poses, CUBE_FACES, "--shapes", 1)
+
+    def test_a_key_with_a_driver_is_a_pose_and_keeps_its_driver(self):
+        cube = self.driven_cube("0")
+        for _ in range(2):
+            work = self.begin(shapes=1)
+            work.wait()
+            (note,) = work.finish(bpy.context)
+            self.assertIn("'bent'", note)
+            self.assertNotIn("'wide'", note)
+            for i, frame in enumerate(self.frames_of_driven_cube()):
+                self.near(seen(cube, 1 + i), frame)
+            self.assertEqual(len(cube.data.shape_keys.animation_data.drivers), 1)
+            self.assertNotIn('key_blocks["bent"].value', curves(cube))
+            self.assertEqual(len(key_names(cube)), 6)
+
+    def test_where_a_driver_turns_its_key_on_it_is_added(self):
+        cube = self.driven_cube("0.5")
+        bpy.ops.shapespace.inbetweens(shapes=1)
+        for i, frame in enumerate(self.frames_of_driven_cube()):
+            self.near(seen(cube, 1 + i), frame + (np.array(bent_cube()) - CUBE) / 2)
+
+    def test_on_the_ground_a_key_with_a_driver_keeps_it_too(self):
+        cube = self.driven_cube("0")
+        bpy.ops.shapespace.inbetweens(shapes=1, ground=True)
+        for i in range(5):
+            self.assertAlmostEqual(seen(cube, 1 + i)[:, 2].min(), 0, places=5)
+        self.assertNotIn('key_blocks["bent"].value', curves(cube))
+
     def test_the_metric_is_the_chosen_one(self):
         cube = add_object("cube", CUBE, CUBE_FACES)
         add_key(cube, "bent", bent_cube())
