@@ -42,10 +42,13 @@ def _as_file_name(name: str) -> str:
 
 
 def require_editable(item) -> None:
-    if item.library is not None:
+    """Raises a Problem unless the object can be given a modifier that is saved."""
+    override = item.override_library
+    if item.library is not None or (override is not None and override.is_system_override):
         raise Problem(
-            f"'{item.name}' is linked from another file: make it local first (Object > Relations >"
-            " Make Local > Selected Objects)"
+            f"'{item.name}' is linked from another file: make a library override of it, which can be"
+            " edited (Object > Library Override > Make), or make it local (Object > Relations > Make"
+            " Local > Selected Objects)"
         )
 
 

@@ -13,18 +13,24 @@ _PREFIX = "geo"  # of the in-betweens' names
 def require_editable(item) -> None:
     """Raises a Problem unless shape keys can be added to the object and be animated."""
     shape_keys = item.data.shape_keys
-    parts = [item, item.data, shape_keys]
+    parts = [item.data, shape_keys]
     if shape_keys is not None:
         if shape_keys.animation_data is not None:
             parts.append(shape_keys.animation_data.action)
         if not shape_keys.use_relative:
             raise Problem(f"The shape keys of '{item.name}' are absolute: tick Relative above them")
-    for part in parts:
-        if part is not None and part.library is not None:
-            raise Problem(
-                f"'{item.name}' is linked from another file: make it local first (Object >"
-                " Relations > Make Local > Selected Objects and Data)"
-            )
+    if item.library is not None or any(map(_is_of_another_file, parts)):
+        raise Problem(
+            f"The mesh of '{item.name}' is in another file, so that Blender would not save shape keys"
+            " that are added here. A motion can be a Mesh Cache instead (Result), which library"
+            " overrides can have. For shape keys, make the object local (Object > Relations > Make"
+            " Local > Selected Objects and Data)"
+        )
+
+
+def _is_of_another_file(part) -> bool:
+    """Whether a data-block, which may be None, is linked or is an override of one that is."""
+    return part is not None and (part.library is not None or part.override_library is not None)
 
 
 def require_free(item, names: list) -> None:

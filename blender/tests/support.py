@@ -69,6 +69,17 @@ def add_key(item, name, vertices):
     return key
 
 
+def linked_from_file(file, name):
+    """Saves the scene, and returns this object of it as one that is linked into an empty scene."""
+    bpy.ops.wm.save_as_mainfile(filepath=str(file))
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    with bpy.data.libraries.load(str(file), link=True) as (_, here):
+        here.objects = [name]
+    item = bpy.data.objects[name]
+    bpy.context.scene.collection.objects.link(item)
+    return item
+
+
 def assign(item, name, chosen):
     """Gives a vertex group the chosen vertices, a truth value for each, which are returned."""
     group = item.vertex_groups.get(name) or item.vertex_groups.new(name=name)
