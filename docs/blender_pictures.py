@@ -192,13 +192,13 @@ def motion():
     prepare()
     animal = make_animal("animal0.obj")
     add_key(animal, "stretch", "animal1.obj")
+    bpy.context.scene.frame_end = 17
     yield
     yield from look_from_the_right()
     with view():
         bpy.ops.shapespace.inbetweens("INVOKE_DEFAULT", True, shapes=15)
     while shown().text:
         yield
-    bpy.context.scene.frame_end = 17
     bpy.context.scene.frame_set(9)
     for _ in range(5):
         yield

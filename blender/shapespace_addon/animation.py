@@ -49,7 +49,7 @@ def remove_keyframes(key) -> bool:
     return curve is not None
 
 
-def peak(key, index: int, count: int, start: int, step: int) -> None:
+def peak(key, index: int, count: int, start: int, step: float) -> None:
     """Keyframes with which a key is fully on at one of `count` moments and off at all others."""
     for at, value in ((index - 1, 0.0), (index, 1.0), (index + 1, 0.0)):
         if 0 <= at < count:

@@ -25,7 +25,7 @@ class MakeBones(Work):
         poses, self._frames = motion_of(context, *self._items(), self._settings.bone_step)
         return [poses]
 
-    def _check_places(self) -> None:
+    def _check_places(self, _context) -> None:
         pass  # a new object can always be added
 
     def _task(self, _context) -> Skinning:

@@ -35,7 +35,7 @@ class Deform(Work):
     def _read(self, context) -> list:
         return [pose_of_target(context, *self._items())]
 
-    def _check_places(self) -> None:
+    def _check_places(self, _context) -> None:
         shape_keys.require_result_seen(*self._items(), DEFORMED)
 
     def _task(self, context) -> Deformation:
@@ -57,7 +57,7 @@ class Mend(Work):
         item, *sound = self._items()
         return [distorted_and_sound(context, item, *(sound or [None]))]
 
-    def _check_places(self) -> None:
+    def _check_places(self, _context) -> None:
         item, *_ = self._items()
         shape_keys.require_result_seen(item, REPAIRED)
 

@@ -6,12 +6,17 @@ from . import modifiers
 from .poses import Poses, poses_of_seen, require_object_mode, seen_mesh
 from .problem import Problem
 
+
+def range_of(scene) -> tuple:
+    """The first and the last frame that are played."""
+    if scene.use_preview_range:
+        return scene.frame_preview_start, scene.frame_preview_end
+    return scene.frame_start, scene.frame_end
+
+
 def frames_of(scene, step: int) -> list:
     """Numbers of the frames that are played: every n-th, and the last."""
-    if scene.use_preview_range:
-        first, last = scene.frame_preview_start, scene.frame_preview_end
-    else:
-        first, last = scene.frame_start, scene.frame_end
+    first, last = range_of(scene)
     return [*range(first, last, step), last]
 
 

@@ -50,7 +50,9 @@ class SHAPESPACE_PT_motion(_Part, bpy.types.Panel):
         column.prop(settings, "result", expand=True)
         if settings.result == "CACHE":
             column.prop(settings, "cache_folder")
+        column.prop(settings, "custom_frames")
         frames = column.column(align=True)
+        frames.enabled = settings.custom_frames
         frames.prop(settings, "frame_start")
         frames.prop(settings, "frame_step", text="Step")
         column.separator()

@@ -123,12 +123,19 @@ class MotionSettings(PoseSettings, ToleranceSettings):
             ("CACHE", "Mesh Cache", "A point cache (.pc2), and a modifier that plays it"),
         ],
     )
+    custom_frames: BoolProperty(
+        name="Custom Frames",
+        description="Set the frame at which the motion begins, and the frames from one shape to the"
+        " next. Otherwise the motion fills the scene's range of frames",
+    )
     frame_start: IntProperty(
-        name="Frame Start", description="Frame at which the first pose is shown", default=1
+        name="Frame Start",
+        description="With Custom Frames: frame at which the first pose is shown",
+        default=1,
     )
     frame_step: IntProperty(
         name="Frame Step",
-        description="Frames from one shape to the next",
+        description="With Custom Frames: frames from one shape to the next",
         default=1,
         min=1,
     )
@@ -308,4 +315,4 @@ class Timing:
     """The frame of a motion's first shape, and the frames from one shape to the next."""
 
     start: int
-    step: int
+    step: float

@@ -11,6 +11,7 @@ from mathutils import Matrix
 
 from . import engine, mesh_cache, record, shape_keys, vertex_groups
 from .metric import metric_of, tolerance_of
+from .moving import range_of
 from .poses import (
     active_mesh,
     pose_of_target,
@@ -35,7 +36,7 @@ class Work:
         self._settings = settings
         self._objects = self._choose(context)
         self._bodies = self._read(context)
-        self._check_places()
+        self._check_places(context)
         self._run = engine.begin(self._task(context), preferences)
         self.report = {}  # of the solve, when the work is finished
 
@@ -73,7 +74,7 @@ class Work:
                     f"'{name}' has changed since the run began: the result does not fit it, and is"
                     " dropped. Start again"
                 )
-        self._check_places()
+        self._check_places(context)
         self.report = result.report
         notes = list(result.notes)
         for i, motion in enumerate(result.motions):
@@ -88,7 +89,7 @@ class Work:
         """The poses of these objects."""
         raise NotImplementedError
 
-    def _check_places(self) -> None:
+    def _check_places(self, context) -> None:
         """Raises a Problem if the result cannot be written."""
         raise NotImplementedError
 
@@ -114,13 +115,36 @@ class Work:
             shape_keys.require_editable(item)
 
     def _put(self, context, item, motion, poses: dict, transferred=(), unseen=()) -> list:
-        timing = Timing(self._settings.frame_start, self._settings.frame_step)
+        timing = self._timing(context, len(motion))
         if self._settings.result == "CACHE":
             file = mesh_cache.file_for(item.name, self._settings.cache_folder)
             mesh_cache.add_motion(context, item, motion, file, timing)
             return []
         mesh_cache.remove(item)
         return shape_keys.add_motion(item, motion, poses, timing, transferred, unseen)
+
+
+    def _require_frames(self, context) -> None:
+        """Raises a Problem if the scene has too few frames for a motion."""
+        first, last = range_of(context.scene)
+        if first == last and not self._settings.custom_frames:
+            raise Problem(
+                f"The scene '{context.scene.name}' begins and ends at frame {first}: let it end later,"
+                " or choose Custom Frames"
+            )
+
+    def _timing(self, context, count: int) -> Timing:
+        """Of a motion of so many shapes."""
+        if self._settings.custom_frames:
+            return Timing(self._settings.frame_start, self._settings.frame_step)
+        first, last = range_of(context.scene)
+        if self._ends() == "periodic":
+            last += 1  # where the first pose is shown again: the range plays as a loop
+        return Timing(first, (last - first) / (count - 1))
+
+    def _ends(self) -> str:
+        """How a motion through several poses begins and ends."""
+        return ""
 
 
 class PosesOfSelection(Work):
@@ -152,7 +176,8 @@ class PosesOfSelection(Work):
 class InBetweens(PosesOfSelection):
     """A motion through the shape keys of one object, or through several objects."""
 
-    def _check_places(self) -> None:
+    def _check_places(self, context) -> None:
+        self._require_frames(context)
         if len(self._objects) > 1:
             if self._settings.result == "CACHE":
                 mesh_cache.file_for(self._new_name(), self._settings.cache_folder)
@@ -248,7 +273,7 @@ class InBetweens(PosesOfSelection):
 class Average(PosesOfSelection):
     """A new object with the average of the shape keys of one object, or of several objects."""
 
-    def _check_places(self) -> None:
+    def _check_places(self, _context) -> None:
         pass  # a new object can always be added
 
     def _task(self, context) -> Task:
@@ -297,7 +322,8 @@ class Transfer(Work):
             require_same(poses.topology, source.name, body.topology, body.names[0])
         return [poses, *rest]
 
-    def _check_places(self) -> None:
+    def _check_places(self, context) -> None:
+        self._require_frames(context)
         items = self._items()
         for i, item in enumerate(items):
             if item.data in [other.data for other in items[:i]]:
@@ -353,7 +379,7 @@ class FitOnto(Work):
     def _read(self, context) -> list:
         return template_and_target(context, *self._items())
 
-    def _check_places(self) -> None:
+    def _check_places(self, _context) -> None:
         pass  # a new object can always be added
 
     def _task(self, _context) -> Fit:

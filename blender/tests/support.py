@@ -190,6 +190,16 @@ class Case(unittest.TestCase):
     def tearDown(self):
         self.assertEqual(temporary_folders(), [])
 
+    def inbetweens(self, **settings):
+        """With shapes that are one frame apart from frame 1 on, if `settings` have no others."""
+        return bpy.ops.shapespace.inbetweens(custom_frames=True, **settings)
+
+    def extrapolate(self, **settings):
+        return bpy.ops.shapespace.extrapolate(custom_frames=True, **settings)
+
+    def transfer(self, **settings):
+        return bpy.ops.shapespace.transfer(custom_frames=True, **settings)
+
     def begin(self, kind="InBetweens", **changes):
         """The work of an operator, begun as its button does."""
         from shapespace_addon import work  # which is installed by now
@@ -197,7 +207,7 @@ class Case(unittest.TestCase):
         settings = {
             "shapes": 3, "metric": "strain", "use_basis": True, "result": "KEYS",
             "allow_mirrored": False,
-            "frame_start": 1, "frame_step": 1, "cache_folder": "//", "stiffness_group": "",
+            "custom_frames": True, "frame_start": 1, "frame_step": 1, "cache_folder": "//", "stiffness_group": "",
             "custom_bending": False, "custom_volume": False, "custom_tolerance": False,
             "anchor_group": "", "ground": False, "loose_components": False, "open_seams": False,
         }  # fmt: skip

@@ -22,7 +22,7 @@ class Bones(Case):
         (sit, stretch), faces = self.quadruped("sit", "stretch")
         animal = add_object("animal", sit, faces)
         add_key(animal, "stretch", stretch)
-        bpy.ops.shapespace.inbetweens(shapes=shapes, frame_step=1, result="KEYS")
+        self.inbetweens(shapes=shapes, frame_step=1, result="KEYS")
         bpy.context.scene.frame_end = last
         return animal
 
@@ -114,7 +114,7 @@ class Bones(Case):
             Matrix.Translation((3, -20, 1)) @ Matrix.Rotation(0.7, 4, "X") @ Matrix.Diagonal((1, 2, 3, 1))
         )
         cube.vertex_groups.new(name="bone_01").add([0, 1], 1, "REPLACE")
-        bpy.ops.shapespace.inbetweens(
+        self.inbetweens(
             shapes=3, frame_step=2, result="CACHE", cache_folder=str(self.folder)
         )
         for frame, x in ((1, 3), (9, 8)):

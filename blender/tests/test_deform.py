@@ -203,7 +203,7 @@ class Deform(Case):
         empty.location.x += 0.1
         bpy.ops.shapespace.deform()
         deformed = key_shape(animal, "deformed")
-        bpy.ops.shapespace.inbetweens(shapes=3)
+        self.inbetweens(shapes=3)
         self.near(seen(animal, 5), deformed)
 
     def test_figures_of_the_report_are_shown(self):
@@ -278,7 +278,7 @@ class Deform(Case):
     def test_a_cache_that_hides_shape_keys(self):
         animal, empty = self.with_handles()
         add_key(animal, "twin", seen(animal, 1))
-        bpy.ops.shapespace.inbetweens(
+        self.inbetweens(
             shapes=1, result="CACHE", cache_folder=str(self.folder)
         )
         self.refused("plays a point cache, which hides shape keys", bpy.ops.shapespace.deform)

@@ -81,7 +81,7 @@ class Fit(Case):
         self.assertEqual(
             {item.name for item in bpy.context.selected_objects}, {template.name, fitted.name}
         )
-        bpy.ops.shapespace.inbetweens(shapes=1)
+        self.inbetweens(shapes=1)
         moving = bpy.context.active_object
         self.assertEqual(key_names(moving), ["template", "template as target", "geo 001"])
         self.near(placed(moving, seen(moving, 3)), placed(fitted, seen(fitted, 1)), 1e-4)

@@ -24,7 +24,7 @@ class Guide(Case):
         (script,) = re.findall(r"^```python\n(.*?)^```", page, re.M | re.S)
         motions, deforming = script.split("\n\nmesh = ")
         calls = [line for line in motions.splitlines() if line.startswith("bpy.ops.")]
-        self.assertEqual(len(calls), 3)
+        self.assertEqual(len(calls), 4)
         twin = add_object("twin", CUBE, CUBE_FACES)
         cube = add_object("cube", CUBE, CUBE_FACES)
         add_key(cube, "bent", bent_cube())

@@ -21,7 +21,7 @@ class MeshCache(Case):
         (sit, stretch), faces = self.quadruped("sit", "stretch")
         animal = add_object("animal", sit, faces)
         add_key(animal, "stretch", stretch)
-        bpy.ops.shapespace.inbetweens(
+        self.inbetweens(
             shapes=7, result="CACHE", cache_folder=str(self.folder), frame_start=10, frame_step=3
         )
         frames = self.frames([sit, stretch], faces, "--shapes", 7)
@@ -33,7 +33,7 @@ class MeshCache(Case):
 
     def test_cyclic_motion_ends_as_it_begins(self):
         cube = self.cube()
-        bpy.ops.shapespace.inbetweens(
+        self.inbetweens(
             shapes=3, result="CACHE", cache_folder=str(self.folder), smooth=True, cyclic=True
         )
         for frame, shape in ((1, CUBE), (5, bent_cube()), (9, CUBE)):
@@ -42,7 +42,7 @@ class MeshCache(Case):
     def test_the_file_is_a_point_cache_in_coordinates_of_the_object(self):
         cube = self.cube()
         cube.location = (10, 0, 0)
-        bpy.ops.shapespace.inbetweens(shapes=1, result="CACHE", cache_folder=str(self.folder))
+        self.inbetweens(shapes=1, result="CACHE", cache_folder=str(self.folder))
         data = (self.folder / "cube.pc2").read_bytes()
         self.assertEqual(
             struct.unpack_from("<12siiffi", data), (b"POINTCACHE2\0", 1, 8, 0, 1, 3)
@@ -65,7 +65,7 @@ class MeshCache(Case):
     def test_beside_the_blend_and_found_after_both_are_moved(self):
         cube = self.cube("a/b")
         self.save("walk.blend")
-        bpy.ops.shapespace.inbetweens(shapes=1, result="CACHE")
+        self.inbetweens(shapes=1, result="CACHE")
         shown = seen(cube, 2)
         self.assertGreater(np.abs(shown - seen(cube, 1)).max(), 0.1)
         bpy.ops.wm.save_mainfile()
@@ -81,7 +81,7 @@ class MeshCache(Case):
         names = ["a/b", "a:b", "a_b", "a%2Fb", "a\\b", "a\nb"]
         for name in names:
             self.cube(name)
-            bpy.ops.shapespace.inbetweens(shapes=1, result="CACHE", cache_folder=str(self.folder))
+            self.inbetweens(shapes=1, result="CACHE", cache_folder=str(self.folder))
         self.assertEqual(len(list(self.folder.iterdir())), len(names))
 
     def test_a_drive_that_is_missing(self):
@@ -100,7 +100,7 @@ class MeshCache(Case):
         cube = self.cube()
         cube.modifiers.new("Subdivision", "SUBSURF")
         for count in (1, 3):
-            bpy.ops.shapespace.inbetweens(
+            self.inbetweens(
                 shapes=count, result="CACHE", cache_folder=str(self.folder)
             )
             self.assertEqual([m.type for m in cube.modifiers], ["MESH_CACHE", "SUBSURF"])
@@ -110,8 +110,8 @@ class MeshCache(Case):
 
     def test_shape_keys_afterwards_are_seen(self):
         cube = self.cube()
-        bpy.ops.shapespace.inbetweens(shapes=1, result="CACHE", cache_folder=str(self.folder))
-        bpy.ops.shapespace.inbetweens(shapes=1, frame_start=50)
+        self.inbetweens(shapes=1, result="CACHE", cache_folder=str(self.folder))
+        self.inbetweens(shapes=1, frame_start=50)
         self.assertEqual(len(cube.modifiers), 0)
         self.near(seen(cube, 52), bent_cube())
         self.near(seen(cube, 3), CUBE)
@@ -119,7 +119,7 @@ class MeshCache(Case):
     def test_folders_that_are_missing_are_made(self):
         self.cube()
         folder = self.folder / "new" / "caches"
-        bpy.ops.shapespace.inbetweens(shapes=1, result="CACHE", cache_folder=str(folder))
+        self.inbetweens(shapes=1, result="CACHE", cache_folder=str(folder))
         self.assertEqual([file.name for file in folder.iterdir()], ["cube.pc2"])
 
     def test_a_scene_that_is_not_saved_has_no_place_for_it(self):

@@ -203,5 +203,5 @@ class NoModule(Case):
             bpy.ops.shapespace.inbetweens,
         )
         preferences().engine = "AUTOMATIC"
-        bpy.ops.shapespace.inbetweens(shapes=1)
+        self.inbetweens(shapes=1)
         self.assertEqual(len(key_names(cube)), 3)

@@ -32,7 +32,7 @@ class Objects(Case):
         for other in ("a1²", "a1\u2460", "a\u0663"):
             first, last = self.two()
             first.name, last.name = "a1", other
-            bpy.ops.shapespace.inbetweens(shapes=1)
+            self.inbetweens(shapes=1)
             self.assertEqual(key_names(bpy.context.active_object)[0], "a1")
             for item in list(bpy.data.objects):
                 bpy.data.objects.remove(item)
@@ -50,7 +50,7 @@ class Objects(Case):
         material = bpy.data.materials.new("skin")
         first.data.materials.append(material)
         frames = self.expected(first, last)
-        bpy.ops.shapespace.inbetweens(shapes=3)
+        self.inbetweens(shapes=3)
         item = bpy.context.active_object
         self.assertEqual(bpy.context.selected_objects, [item])
         self.assertEqual(item.name, "pose 9 in-betweens")
@@ -62,13 +62,13 @@ class Objects(Case):
         # The poses are as they were, and the operator can be run again on the new object.
         self.assertIsNone(first.data.shape_keys)
         objects = len(bpy.data.objects)
-        bpy.ops.shapespace.inbetweens(shapes=1)
+        self.inbetweens(shapes=1)
         self.assertEqual((len(key_names(item)), len(bpy.data.objects)), (3, objects))
 
     def test_cyclic_motion_ends_as_it_begins(self):
         first, last = self.two()
         shapes = [placed(item, seen(item, 1)) for item in (first, last)]
-        bpy.ops.shapespace.inbetweens(shapes=3, smooth=True, cyclic=True)
+        self.inbetweens(shapes=3, smooth=True, cyclic=True)
         item = bpy.context.active_object
         self.assertEqual(len(key_names(item)), 8)  # two poses, three shapes in each of two gaps
         for frame, shape in ((1, shapes[0]), (5, shapes[1]), (9, shapes[0])):
@@ -77,7 +77,7 @@ class Objects(Case):
     def test_as_a_cache(self):
         first, last = self.two()
         frames = self.expected(first, last)
-        bpy.ops.shapespace.inbetweens(shapes=3, result="CACHE", cache_folder=str(self.folder))
+        self.inbetweens(shapes=3, result="CACHE", cache_folder=str(self.folder))
         item = bpy.context.active_object
         self.assertIsNone(item.data.shape_keys)
         for i, frame in enumerate(frames):
@@ -106,7 +106,7 @@ class Objects(Case):
         ends = [seen(item, 1) for item in (first, second)]
         self.assertEqual(len(ends[0]), 26)
         select(first, second)
-        bpy.ops.shapespace.inbetweens(shapes=1)
+        self.inbetweens(shapes=1)
         item = bpy.context.active_object
         self.assertEqual(len(item.modifiers), 0)
         self.near(seen(item, 1), ends[0])
@@ -118,7 +118,7 @@ class Objects(Case):
         cube = add_object("cube", CUBE, CUBE_FACES)
         add_key(cube, "bent", bent_cube())
         select(cube, light)
-        bpy.ops.shapespace.inbetweens(shapes=1)
+        self.inbetweens(shapes=1)
         self.near(seen(cube, 3), bent_cube())
 
     def test_meshes_that_do_not_correspond(self):

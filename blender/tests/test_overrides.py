@@ -27,7 +27,7 @@ class Overrides(Case):
         return cube
 
     def make_cache(self, **settings):
-        bpy.ops.shapespace.inbetweens(
+        self.inbetweens(
             shapes=1, result="CACHE", cache_folder=str(self.folder), **settings
         )
 
@@ -68,7 +68,7 @@ class Overrides(Case):
     def test_with_a_mesh_of_this_file_it_can_have_shape_keys(self):
         cube = self.override()
         cube.data = cube.data.copy()
-        bpy.ops.shapespace.inbetweens(shapes=1)
+        self.inbetweens(shapes=1)
         cube = self.saved_and_opened()
         self.assertEqual(key_names(cube), ["Basis", "bent", "geo 001"])
         self.near(seen(cube, 3), bent_cube())

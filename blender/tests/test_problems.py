@@ -69,7 +69,7 @@ class Problems(Case):
     def test_a_vertex_that_is_nowhere(self):
         self.cube().data.shape_keys.key_blocks["bent"].data[5].co.y = float("nan")
         with self.assertRaisesRegex(RuntimeError, "Vertex 5 of 'bent' is at no finite place"):
-            bpy.ops.shapespace.inbetweens()
+            self.inbetweens()
 
     def test_an_object_without_extent(self):
         self.cube().scale = (1, 0, 1)
@@ -95,7 +95,7 @@ class Problems(Case):
         bpy.context.scene.collection.objects.link(own)
         select(own)
         self.all_refused("'own'")
-        bpy.ops.shapespace.inbetweens(
+        self.inbetweens(
             shapes=1, result="CACHE", cache_folder=str(self.folder)
         )
         self.near(seen(own, 3), bent_cube())
@@ -116,7 +116,7 @@ class Problems(Case):
         self.addCleanup(os.environ.__setitem__, "PATH", path)
         os.environ["PATH"] = preferences().tools + os.pathsep + path
         preferences().tools = ""
-        bpy.ops.shapespace.inbetweens(shapes=1)
+        self.inbetweens(shapes=1)
         self.near(seen(cube, 3), bent_cube())
 
     def stand_in(self, script):
@@ -154,5 +154,5 @@ class Problems(Case):
     def test_three_faces_at_an_edge_are_no_problem(self):
         fin = add_object("fin", [*CUBE, [0, 0, 3]], [*CUBE_FACES, [1, 3, 8]])
         add_key(fin, "bent", [*bent_cube(), [0, 0, 3]])
-        bpy.ops.shapespace.inbetweens(shapes=1)
+        self.inbetweens(shapes=1)
         self.near(seen(fin, 3)[:8], bent_cube())

@@ -34,9 +34,9 @@ class Settings(Case):
 
     def test_an_anchor_stands_between_poses(self):
         cube = self.cube()
-        bpy.ops.shapespace.inbetweens(shapes=3)
+        self.inbetweens(shapes=3)
         free = self.slide(cube)
-        bpy.ops.shapespace.inbetweens(shapes=3, anchor_group="foot")
+        self.inbetweens(shapes=3, anchor_group="foot")
         self.assertLess(self.slide(cube), 0.4 * free)
         self.near(seen(cube, 5), bent_cube())
 
@@ -48,7 +48,7 @@ class Settings(Case):
             item.modifiers.new("Subdivision", "SUBSURF").subdivision_type = "SIMPLE"
             items.append(item)
         select(*items)
-        bpy.ops.shapespace.inbetweens(shapes=3, anchor_group="foot")
+        self.inbetweens(shapes=3, anchor_group="foot")
         moved = bpy.context.active_object
         self.foot = np.array([vertex.co[2] for vertex in moved.data.vertices]) < -0.9
         self.assertGreater(self.foot.sum(), 0)
@@ -57,19 +57,19 @@ class Settings(Case):
     def test_shapes_stand_on_the_ground_of_the_scene(self):
         cube = self.cube()
         cube.matrix_world = Matrix.Translation((0, 3, 5)) @ Matrix.Rotation(0.7, 4, "X")
-        bpy.ops.shapespace.inbetweens(shapes=3, ground=True, ground_height=0.5)
+        self.inbetweens(shapes=3, ground=True, ground_height=0.5)
         for frame in range(1, 6):
             self.assertAlmostEqual(placed(cube, seen(cube, frame))[:, 2].min(), 0.5, places=5)
         # The poses themselves are as they were, and off.
         self.near(key_shape(cube, "bent"), bent_cube())
         self.assertEqual(len(key_names(cube)), 7)
         self.assertNotIn('key_blocks["bent"].value', curves(cube))
-        bpy.ops.shapespace.inbetweens(shapes=3)
+        self.inbetweens(shapes=3)
         self.near(seen(cube, 5), bent_cube())
 
     def test_the_ground_of_a_cache(self):
         cube = self.cube()
-        bpy.ops.shapespace.inbetweens(
+        self.inbetweens(
             shapes=3, ground=True, result="CACHE", cache_folder=str(self.folder)
         )
         for frame in range(1, 6):
@@ -77,7 +77,7 @@ class Settings(Case):
 
     def test_flags_are_those_of_the_tool(self):
         cube = self.cube()
-        bpy.ops.shapespace.inbetweens(
+        self.inbetweens(
             shapes=3, custom_bending=True, bending=0.01, custom_volume=True, volume=3,
             custom_tolerance=True, tolerance=1e-9, stiffness_group="foot", stiffness_factor=50,
         )  # fmt: skip
@@ -95,10 +95,10 @@ class Settings(Case):
     def test_a_weight_is_a_power_of_the_factor(self):
         cube = self.cube()
         cube.vertex_groups["foot"].add(np.flatnonzero(self.foot).tolist(), 0.5, "REPLACE")
-        bpy.ops.shapespace.inbetweens(shapes=1, stiffness_group="foot", stiffness_factor=100)
+        self.inbetweens(shapes=1, stiffness_group="foot", stiffness_factor=100)
         half = seen(cube, 2)
         assign(cube, "foot", self.foot)
-        bpy.ops.shapespace.inbetweens(shapes=1, stiffness_group="foot", stiffness_factor=10)
+        self.inbetweens(shapes=1, stiffness_group="foot", stiffness_factor=10)
         self.near(seen(cube, 2), half)
 
     def test_groups_that_are_not_there(self):
@@ -118,7 +118,7 @@ class Settings(Case):
 
     def test_figures_of_the_report_are_shown(self):
         self.cube()
-        bpy.ops.shapespace.inbetweens(shapes=3)
+        self.inbetweens(shapes=3)
         shown = bpy.context.window_manager.shapespace_report
         figures = {figure.name: figure.value for figure in shown.figures}
         self.assertEqual((shown.title, figures["Ended"]), ("In-betweens", "converged"))

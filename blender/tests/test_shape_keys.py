@@ -25,7 +25,7 @@ class ShapeKeys(Case):
         (sit, stretch), faces = self.quadruped("sit", "stretch")
         animal = add_object("animal", sit, faces)
         add_key(animal, "stretch", stretch)
-        bpy.ops.shapespace.inbetweens(shapes=7, frame_start=10, frame_step=3)
+        self.inbetweens(shapes=7, frame_start=10, frame_step=3)
         frames = self.frames([sit, stretch], faces, "--shapes", 7)
         self.assertEqual(len(frames), 9)
         for i, frame in enumerate(frames):
@@ -40,7 +40,7 @@ class ShapeKeys(Case):
         cube = add_object("cube", CUBE, CUBE_FACES)
         add_key(cube, "bent", bent_cube())
         add_key(cube, "wide", wide)
-        bpy.ops.shapespace.inbetweens(shapes=3)
+        self.inbetweens(shapes=3)
         frames = self.frames([CUBE, bent_cube(), wide], CUBE_FACES, "--shapes", 3)
         self.assertEqual(len(frames), 9)
         for i, frame in enumerate(frames):
@@ -59,7 +59,7 @@ class ShapeKeys(Case):
         tall = vertices * [1, 1, 1.5]
         drum = add_object("drum", vertices, faces)
         add_key(drum, "tall", tall)
-        bpy.ops.shapespace.inbetweens(shapes=1)
+        self.inbetweens(shapes=1)
         frames = self.frames([vertices, tall], faces, "--shapes", 1)
         self.near(seen(drum, 2), frames[1])
 
@@ -69,7 +69,7 @@ class ShapeKeys(Case):
         curled = np.stack([np.sin(along), 1 - np.cos(along), 0 * along], axis=1)
         rope = add_object("rope", straight, [], [(i, i + 1) for i in range(11)])
         add_key(rope, "curled", curled)
-        bpy.ops.shapespace.inbetweens(shapes=1)
+        self.inbetweens(shapes=1)
         lengths = np.linalg.norm(np.diff(seen(rope, 2), axis=0), axis=1)
         self.near(lengths, np.full(11, 3 / 11), 1e-3)
 
@@ -84,7 +84,7 @@ class ShapeKeys(Case):
         )
         bpy.context.view_layer.update()
         scene = [placed(cube, np.array(shape)) for shape in (CUBE, bent_cube())]
-        bpy.ops.shapespace.inbetweens(shapes=3)
+        self.inbetweens(shapes=3)
         frames = self.frames(scene, CUBE_FACES, "--shapes", 3)
         for i, frame in enumerate(frames):
             self.near(placed(cube, seen(cube, 1 + i)), frame)
@@ -93,11 +93,11 @@ class ShapeKeys(Case):
         (sit, stretch), faces = self.quadruped("sit", "stretch")
         near = add_object("near", sit, faces)
         add_key(near, "stretch", stretch)
-        bpy.ops.shapespace.inbetweens(shapes=3)
+        self.inbetweens(shapes=3)
         far = add_object("far", sit, faces)
         add_key(far, "stretch", stretch)
         far.location = (1e6, -1e6, 1e6)
-        bpy.ops.shapespace.inbetweens(shapes=3)
+        self.inbetweens(shapes=3)
         self.near(seen(far, 3), seen(near, 3))
 
     def test_keys_of_the_user_stay_as_they_are(self):
@@ -108,7 +108,7 @@ class ShapeKeys(Case):
         muted.value = 0.25
         shapes = {name: key_shape(cube, name) for name in key_names(cube)}
         for count in (3, 2):
-            bpy.ops.shapespace.inbetweens(shapes=count)
+            self.inbetweens(shapes=count)
             self.assertEqual(key_names(cube)[:3], ["Basis", "bent", "geo 001"])
             self.assertEqual(len(key_names(cube)), 3 + count)
             for name, shape in shapes.items():
@@ -119,29 +119,29 @@ class ShapeKeys(Case):
     def test_a_second_run_replaces_the_first(self):
         cube = add_object("cube", CUBE, CUBE_FACES)
         add_key(cube, "bent", bent_cube())
-        bpy.ops.shapespace.inbetweens(shapes=5, frame_start=1, frame_step=10)
-        bpy.ops.shapespace.inbetweens(shapes=2, frame_start=20)
+        self.inbetweens(shapes=5, frame_start=1, frame_step=10)
+        self.inbetweens(shapes=2, frame_start=20)
         again = key_names(cube), curves(cube)
         fresh = add_object("fresh", CUBE, CUBE_FACES)
         add_key(fresh, "bent", bent_cube())
-        bpy.ops.shapespace.inbetweens(shapes=2, frame_start=20)
+        self.inbetweens(shapes=2, frame_start=20)
         self.assertEqual(again, (key_names(fresh), curves(fresh)))
 
     def test_a_key_that_was_renamed_is_the_users(self):
         cube = add_object("cube", CUBE, CUBE_FACES)
         add_key(cube, "bent", bent_cube())
-        bpy.ops.shapespace.inbetweens(shapes=1)
+        self.inbetweens(shapes=1)
         key = cube.data.shape_keys.key_blocks["geo 001"]
         key.name = "half"
         half = key_shape(cube, "half")
-        bpy.ops.shapespace.inbetweens(shapes=1)
+        self.inbetweens(shapes=1)
         self.near(key_shape(cube, "half"), half, 0)
         self.assertEqual(len(key_names(cube)), 5)  # three poses, one shape in each of two gaps
 
     def test_only_one_key_is_on_at_its_frame(self):
         cube = add_object("cube", CUBE, CUBE_FACES)
         add_key(cube, "bent", bent_cube())
-        bpy.ops.shapespace.inbetweens(shapes=4, frame_step=2)
+        self.inbetweens(shapes=4, frame_step=2)
         for i in range(6):
             bpy.context.scene.frame_set(1 + 2 * i)
             on = [k.value for k in cube.data.shape_keys.key_blocks][1:]
@@ -151,7 +151,7 @@ class ShapeKeys(Case):
         cube = add_object("cube", CUBE, CUBE_FACES)
         add_key(cube, "bent", bent_cube())
         bpy.context.scene.frame_set(3)
-        bpy.ops.shapespace.inbetweens(shapes=3)
+        self.inbetweens(shapes=3)
         values = [key.value for key in cube.data.shape_keys.key_blocks]
         bpy.context.scene.frame_set(3)
         self.assertEqual(values, [key.value for key in cube.data.shape_keys.key_blocks])
@@ -161,7 +161,7 @@ class ShapeKeys(Case):
         cube = add_object("cube", CUBE, CUBE_FACES)
         add_key(cube, "bent", bent_cube())
         cube.show_only_shape_key = True
-        bpy.ops.shapespace.inbetweens(shapes=1)
+        self.inbetweens(shapes=1)
         self.near(seen(cube, 1), CUBE)
         self.near(seen(cube, 3), bent_cube())
 
@@ -181,7 +181,7 @@ class ShapeKeys(Case):
             key.value = 0
         self.near(shown[1], np.array(CUBE) * [1, 1, 2], 0)
         self.near(shown[0][4], np.array(CUBE[4]) * [1.5, 1, 1], 0)
-        bpy.ops.shapespace.inbetweens(shapes=1)
+        self.inbetweens(shapes=1)
         self.near(seen(cube, 3), shown[0])
         frames = self.frames([CUBE, *shown], CUBE_FACES, "--shapes", 1)
         for i, frame in enumerate(frames):
@@ -192,7 +192,7 @@ class ShapeKeys(Case):
         wide = np.array(CUBE) * [2, 1, 1]
         add_key(cube, "bent", bent_cube())
         add_key(cube, "wide", wide)
-        bpy.ops.shapespace.inbetweens(shapes=1, use_basis=False)
+        self.inbetweens(shapes=1, use_basis=False)
         frames = self.frames([bent_cube(), wide], CUBE_FACES, "--shapes", 1)
         for i, frame in enumerate(frames):
             self.near(seen(cube, 1 + i), frame)
@@ -204,7 +204,7 @@ class ShapeKeys(Case):
         animal = add_object("animal", poses[0], faces)
         for name, pose in zip(("sit", "stretch"), poses[1:]):
             add_key(animal, name, pose)
-        bpy.ops.shapespace.inbetweens(shapes=7, **settings)
+        self.inbetweens(shapes=7, **settings)
         last = 24 if settings.get("cyclic") else 16
         return poses, [seen(animal, 1 + i) for i in range(last + 1)]
 
@@ -234,7 +234,7 @@ class ShapeKeys(Case):
         animal = add_object("animal", poses[1], faces)
         for name, pose in zip(("a", "b", "c"), poses):
             add_key(animal, name, pose)
-        bpy.ops.shapespace.inbetweens(shapes=3, use_basis=False, smooth=True, cyclic=True)
+        self.inbetweens(shapes=3, use_basis=False, smooth=True, cyclic=True)
         for frame, pose in ((1, 0), (5, 1), (9, 2), (13, 0)):
             self.near(seen(animal, frame), poses[pose])
         self.assertGreater(np.abs(seen(animal, 7) - poses[0]).max(), 0.01)
@@ -244,7 +244,7 @@ class ShapeKeys(Case):
         add_key(cube, "bent", bent_cube())
         add_key(cube, "wide", np.array(CUBE) * [2, 1, 1])
         for use_basis in (True, False):
-            bpy.ops.shapespace.inbetweens(
+            self.inbetweens(
                 shapes=3, frame_step=2, use_basis=use_basis, smooth=True, cyclic=True
             )
             period = 2 * 4 * (3 if use_basis else 2)
@@ -279,7 +279,7 @@ class ShapeKeys(Case):
         self.assertIn("only two poses", note)
         for i, frame in enumerate(self.frames([CUBE, bent_cube()], CUBE_FACES, "--shapes", 3)):
             self.near(seen(cube, 1 + i), frame)
-        bpy.ops.shapespace.inbetweens(shapes=3, smooth=True, cyclic=True)
+        self.inbetweens(shapes=3, smooth=True, cyclic=True)
         for frame, shape in ((1, CUBE), (5, bent_cube()), (9, CUBE)):
             self.near(seen(cube, frame), shape)
 
@@ -287,7 +287,7 @@ class ShapeKeys(Case):
         (stand, rear), faces = self.quadruped("stand", "rear")
         animal = add_object("animal", stand, faces)
         add_key(animal, "rear", rear)
-        bpy.ops.shapespace.extrapolate(shapes=3, steps=3)
+        self.extrapolate(shapes=3, steps=3)
         frames = self.frames(
             [stand, rear], faces, "--shapes", 3, "--steps", 3, name="shape-extrapolate"
         )
@@ -323,13 +323,13 @@ class ShapeKeys(Case):
 
     def test_where_a_driver_turns_its_key_on_it_is_added(self):
         cube = self.driven_cube("0.5")
-        bpy.ops.shapespace.inbetweens(shapes=1)
+        self.inbetweens(shapes=1)
         for i, frame in enumerate(self.frames_of_driven_cube()):
             self.near(seen(cube, 1 + i), frame + (np.array(bent_cube()) - CUBE) / 2)
 
     def test_on_the_ground_a_key_with_a_driver_keeps_it_too(self):
         cube = self.driven_cube("0")
-        bpy.ops.shapespace.inbetweens(shapes=1, ground=True)
+        self.inbetweens(shapes=1, ground=True)
         for i in range(5):
             self.assertAlmostEqual(seen(cube, 1 + i)[:, 2].min(), 0, places=5)
         self.assertNotIn('key_blocks["bent"].value', curves(cube))
@@ -337,7 +337,7 @@ class ShapeKeys(Case):
     def test_the_metric_is_the_chosen_one(self):
         cube = add_object("cube", CUBE, CUBE_FACES)
         add_key(cube, "bent", bent_cube())
-        bpy.ops.shapespace.inbetweens(shapes=3, metric="rigid")
+        self.inbetweens(shapes=3, metric="rigid")
         frames = self.frames([CUBE, bent_cube()], CUBE_FACES, "--shapes", 3, "--metric", "rigid")
         plain = self.frames([CUBE, bent_cube()], CUBE_FACES, "--shapes", 3)
         self.assertGreater(np.abs(frames[2] - plain[2]).max(), 1e-3)

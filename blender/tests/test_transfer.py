@@ -48,7 +48,7 @@ class Transfer(Case):
         frames = self.moved("a.path")
         before = key_names(source)
         select(target, source)
-        bpy.ops.shapespace.transfer(shapes=3, frame_step=2)
+        self.transfer(shapes=3, frame_step=2)
         self.assertEqual(len(frames), 5)
         for i, frame in enumerate(frames):
             self.near(seen(target, 1 + 2 * i), frame)
@@ -59,12 +59,12 @@ class Transfer(Case):
         source, target = self.bodies()
         frames = self.moved("stand.obj", "rear.obj")
         select(target, source)
-        bpy.ops.shapespace.transfer(poses_only=True)
+        self.transfer(poses_only=True)
         self.assertEqual(key_names(target), ["Basis", "rear"])
         self.near(seen(target, 1), frames[0])
         self.near(seen(target, 2), frames[1])
         select(target)
-        bpy.ops.shapespace.inbetweens(shapes=1)
+        self.inbetweens(shapes=1)
         self.assertEqual(key_names(target), ["Basis", "rear", "geo 001"])
         self.near(seen(target, 3), frames[1])
 
@@ -73,7 +73,7 @@ class Transfer(Case):
         own = add_key(target, "own", seen(target, 1) * 1.1)
         select(target, source)
         for count in (2, 1):
-            bpy.ops.shapespace.transfer(shapes=count)
+            self.transfer(shapes=count)
             self.assertEqual(len(key_names(target)), 3 + count)
         self.assertEqual(key_names(target)[:2], ["Basis", "own"])
         self.assertEqual(own.value, 0)
@@ -87,7 +87,7 @@ class Transfer(Case):
             target.matrix_world = Matrix.Translation((5 * i, 1, 2)) @ Matrix.Rotation(i, 4, "Z")
             targets.append(target)
         select(*targets, cube)
-        bpy.ops.shapespace.transfer(shapes=1, result="CACHE", cache_folder=str(self.folder))
+        self.transfer(shapes=1, result="CACHE", cache_folder=str(self.folder))
         self.assertEqual(
             sorted(file.name for file in self.folder.iterdir()), ["target0.pc2", "target1.pc2"]
         )

@@ -26,7 +26,7 @@ class Undo(Case):
         self.cube()
         self.undone_and_redone(bpy.ops.shapespace.inbetweens, shapes=2)
         # and a run that replaces another
-        self.undone_and_redone(bpy.ops.shapespace.inbetweens, shapes=1, frame_start=7)
+        self.undone_and_redone(bpy.ops.shapespace.inbetweens, shapes=1, smooth=True)
 
     def test_extrapolation(self):
         self.cube()
@@ -46,7 +46,7 @@ class Undo(Case):
 
     def test_bones(self):
         cube = self.cube()
-        bpy.ops.shapespace.inbetweens(shapes=2)
+        self.inbetweens(shapes=2)
         cube.select_set(True)
         self.undone_and_redone(bpy.ops.shapespace.bones, bones=3)
 
