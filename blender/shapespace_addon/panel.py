@@ -23,7 +23,7 @@ class _Tab:
 
 
 class SHAPESPACE_PT_panel(_Tab, bpy.types.Panel):
-    """What runs, or else the figures of what ran last."""
+    """What runs, and the buttons. Their settings are folded away below."""
 
     bl_label = "shapespace"
     bl_idname = "SHAPESPACE_PT_panel"
@@ -32,12 +32,46 @@ class SHAPESPACE_PT_panel(_Tab, bpy.types.Panel):
         shown = context.window_manager.shapespace_progress
         if shown.text:
             _draw_run(self.layout.box(), shown)
-        if context.window_manager.shapespace_report.title:
-            _draw_report(self.layout.box(), context.window_manager.shapespace_report)
+        _Tab.draw(self, context)
+
+    def draw_settings(self, column, context, settings):
+        first = column.column()
+        first.scale_y = 1.5
+        buttons.draw(first, context, "shapespace.inbetweens", "IPO_EASE_IN_OUT")
+        for operators in _BUTTONS:
+            row = column.row(align=True)
+            for operator, icon in operators:
+                buttons.draw(row, context, operator, icon)
+
+
+_BUTTONS = (  # side by side, as far as their names fit
+    (
+        ("shapespace.extrapolate", "TRACKING_FORWARDS_SINGLE"),
+        ("shapespace.transfer", "MOD_DATA_TRANSFER"),
+    ),
+    (("shapespace.fit", "MOD_SHRINKWRAP"), ("shapespace.average", "MOD_SMOOTH")),
+    (("shapespace.deform", "MOD_SIMPLEDEFORM"), ("shapespace.repair", "TOOL_SETTINGS")),
+    (("shapespace.deform_live", "PLAY"),),
+    (("shapespace.bones", "ARMATURE_DATA"),),
+)
 
 
 class _Part(_Tab):
     bl_parent_id = "SHAPESPACE_PT_panel"
+    bl_options = {"DEFAULT_CLOSED"}
+
+
+class SHAPESPACE_PT_report(_Part, bpy.types.Panel):
+    """The figures of what ran last."""
+
+    bl_label = "Report"
+
+    def draw(self, context):
+        shown = context.window_manager.shapespace_report
+        if shown.title:
+            _draw_report(self.layout, shown)
+        else:
+            self.layout.label(text="Nothing was computed yet")
 
 
 class SHAPESPACE_PT_motion(_Part, bpy.types.Panel):
@@ -47,49 +81,44 @@ class SHAPESPACE_PT_motion(_Part, bpy.types.Panel):
         for name in ("shapes", "metric", "use_basis", "allow_mirrored"):
             column.prop(settings, name)
         column.separator()
-        column.prop(settings, "result", expand=True)
-        if settings.result == "CACHE":
-            column.prop(settings, "cache_folder")
-        column.prop(settings, "custom_frames")
-        frames = column.column(align=True)
-        frames.enabled = settings.custom_frames
-        frames.prop(settings, "frame_start")
-        frames.prop(settings, "frame_step", text="Step")
-        column.separator()
-        _draw_group(column, context, settings, "anchor_group")
-        column.prop(settings, "ground")
-        height = column.row()
-        height.enabled = settings.ground
-        height.prop(settings, "ground_height")
-        column.separator()
         column.prop(settings, "smooth")
         cyclic = column.row()
         cyclic.enabled = settings.smooth
         cyclic.prop(settings, "cyclic")
         column.prop(settings, "avoid_contact")
-        buttons.draw(column, context, "shapespace.inbetweens", "IPO_EASE_IN_OUT")
-        column.separator()
-        column.prop(settings, "steps")
-        buttons.draw(column, context, "shapespace.extrapolate", "TRACKING_FORWARDS_SINGLE")
-        column.separator()
-        column.prop(settings, "poses_only")
-        buttons.draw(column, context, "shapespace.transfer", "MOD_DATA_TRANSFER")
-        column.separator()
-        buttons.draw(column, context, "shapespace.fit", "MOD_SHRINKWRAP")
-        column.separator()
-        column.prop(settings, "modes")
-        buttons.draw(column, context, "shapespace.average", "MOD_SMOOTH")
 
 
-class SHAPESPACE_PT_bones(_Part, bpy.types.Panel):
-    bl_label = "Bones"
-    bl_options = {"DEFAULT_CLOSED"}
+class SHAPESPACE_PT_result(_Part, bpy.types.Panel):
+    bl_label = "Result and Frames"
 
     def draw_settings(self, column, context, settings):
-        buttons.draw(column, context, "shapespace.bones", "ARMATURE_DATA")
-        column.prop(settings, "auto_bones")
-        column.prop(settings, "bone_error" if settings.auto_bones else "bones")
-        for name in ("bone_weights", "bone_scale", "bone_step"):
+        column.prop(settings, "result", expand=True)
+        if settings.result == "CACHE":
+            column.prop(settings, "cache_folder")
+        column.separator()
+        column.prop(settings, "custom_frames")
+        frames = column.column(align=True)
+        frames.enabled = settings.custom_frames
+        frames.prop(settings, "frame_start")
+        frames.prop(settings, "frame_step", text="Step")
+
+
+class SHAPESPACE_PT_placement(_Part, bpy.types.Panel):
+    bl_label = "Anchor and Ground"
+
+    def draw_settings(self, column, context, settings):
+        _draw_group(column, context, settings, "anchor_group")
+        column.prop(settings, "ground")
+        height = column.row()
+        height.enabled = settings.ground
+        height.prop(settings, "ground_height")
+
+
+class SHAPESPACE_PT_others(_Part, bpy.types.Panel):
+    bl_label = "Other Motions"
+
+    def draw_settings(self, column, context, settings):
+        for name in ("steps", "poses_only", "modes"):
             column.prop(settings, name)
 
 
@@ -105,7 +134,6 @@ class SHAPESPACE_UL_handles(bpy.types.UIList):
 
 class SHAPESPACE_PT_deform(_Part, bpy.types.Panel):
     bl_label = "Deform"
-    bl_options = {"DEFAULT_CLOSED"}
 
     def draw_settings(self, column, context, settings):
         try:
@@ -114,25 +142,30 @@ class SHAPESPACE_PT_deform(_Part, bpy.types.Panel):
             pass  # the buttons say why
         column.prop(settings, "deform_shapes")
         column.prop(settings, "balance")
-        buttons.draw(column, context, "shapespace.deform", "MOD_SIMPLEDEFORM")
-        buttons.draw(column, context, "shapespace.deform_live", "PLAY")
 
 
 class SHAPESPACE_PT_repair(_Part, bpy.types.Panel):
     bl_label = "Repair"
-    bl_options = {"DEFAULT_CLOSED"}
 
     def draw_settings(self, column, context, settings):
         column.prop(settings, "repair_balance")
         _draw_group(column, context, settings, "sound_group")
-        buttons.draw(column, context, "shapespace.repair", "TOOL_SETTINGS")
+
+
+class SHAPESPACE_PT_bones(_Part, bpy.types.Panel):
+    bl_label = "Bones"
+
+    def draw_settings(self, column, context, settings):
+        column.prop(settings, "auto_bones")
+        column.prop(settings, "bone_error" if settings.auto_bones else "bones")
+        for name in ("bone_weights", "bone_scale", "bone_step"):
+            column.prop(settings, name)
 
 
 class SHAPESPACE_PT_metric(_Part, bpy.types.Panel):
     """What all operators have."""
 
     bl_label = "Stiffness and Tolerance"
-    bl_options = {"DEFAULT_CLOSED"}
 
     def draw_settings(self, column, context, settings):
         _draw_group(column, context, settings, "stiffness_group")
@@ -152,10 +185,14 @@ class SHAPESPACE_PT_metric(_Part, bpy.types.Panel):
 CLASSES = (
     SHAPESPACE_UL_handles,
     SHAPESPACE_PT_panel,
+    SHAPESPACE_PT_report,
     SHAPESPACE_PT_motion,
-    SHAPESPACE_PT_bones,
+    SHAPESPACE_PT_result,
+    SHAPESPACE_PT_placement,
+    SHAPESPACE_PT_others,
     SHAPESPACE_PT_deform,
     SHAPESPACE_PT_repair,
+    SHAPESPACE_PT_bones,
     SHAPESPACE_PT_metric,
 )
 
@@ -172,9 +209,9 @@ def _draw_run(box, shown) -> None:
     row.operator("shapespace.cancel", text="Cancel", icon="EVENT_ESC")
 
 
-def _draw_report(box, shown) -> None:
-    box.label(text=shown.title)
-    column = box.column(align=True)
+def _draw_report(layout, shown) -> None:
+    layout.label(text=shown.title)
+    column = layout.column(align=True)
     for figure in shown.figures:
         row = column.split(factor=0.62)
         row.label(text=figure.name)

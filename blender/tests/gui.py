@@ -73,7 +73,7 @@ def count_draws(kind):
 
 def open_panels():
     """Puts the add-on's panels into the tab of the sidebar that is open at first, all unfolded.
-    Returns of the first one what `count_draws` does, when all have been drawn."""
+    Returns by their names what `count_draws` does, when all have been drawn."""
     from shapespace_addon import panel
 
     kinds = [kind for kind in panel.CLASSES if issubclass(kind, bpy.types.Panel)]
@@ -88,7 +88,7 @@ def open_panels():
         bpy.context.area.spaces.active.show_region_ui = True
         bpy.context.scene.shapespace.result = "CACHE"
     yield from until(lambda: all(drawn))
-    return drawn[0]
+    return dict(zip((kind.__name__ for kind in kinds), drawn))
 
 
 def steps(folder):
@@ -121,7 +121,7 @@ def steps(folder):
             raise AssertionError("a second run was begun")
         except RuntimeError as error:
             assert "A run is going on already" in str(error), error
-    yield from until(lambda: True in drawn)  # the panel shows the run
+    yield from until(lambda: True in drawn["SHAPESPACE_PT_panel"])  # which shows the run
     assert running()
     (folder / "go").touch()
     yield from until(lambda: not running())
@@ -131,6 +131,8 @@ def steps(folder):
     assert support.key_names(bpy.data.objects["animal"])[-1] == "geo 007"
     assert len(support.key_names(bpy.data.objects["animal"])) == 9
     assert support.temporary_folders() == []
+    del drawn["SHAPESPACE_PT_report"][:]
+    yield from until(lambda: drawn["SHAPESPACE_PT_report"])  # with the figures of the run
 
     with view():
         bpy.ops.ed.undo()
