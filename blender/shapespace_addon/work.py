@@ -123,7 +123,6 @@ class Work:
         mesh_cache.remove(item)
         return shape_keys.add_motion(item, motion, poses, timing, transferred, unseen)
 
-
     def _require_frames(self, context) -> None:
         """Raises a Problem if the scene has too few frames for a motion."""
         first, last = range_of(context.scene)
