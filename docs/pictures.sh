@@ -52,6 +52,7 @@ still still.path "$pictures/still-handles.png"
 "$bin/shape-interpolate" animal0.obj animal1.obj --shapes 15 \
   --output "walk.path,$pictures/first-path.png"
 
+# guide/going-on.md: feet that stay on the ground
 "$bin/shape-body" quadruped --pose stride,rear --output 'step%d.obj'
 "$bin/shape-interpolate" step0.obj step1.obj --output rear.path
 "$bin/shape-export" rear.path --frames 5 --ground_line 0 --title "without --anchor" \
