@@ -180,6 +180,12 @@ TEST_F(HelpTest, BashCompletesFlagsValuesAndBodies) {
   EXPECT_EQ(replies("shape-body st"), "strip steffen\n");
 }
 
+TEST_F(HelpTest, DashesServeForUnderscores) {
+  ASSERT_EQ(Run("shape-body", {"bricard", "--at", "0", "--output", "a.obj"}).code, 0);
+  EXPECT_EQ(Run("shape-inspect", {"a.obj", "--open-seams"}).code, 0);
+  EXPECT_EQ(Run("shape-inspect", {"a.obj", "--open-seam"}).code, 2);
+}
+
 TEST_F(HelpTest, VersionIsOneLine) {
   for (const char* tool : kTools) {
     const Outcome outcome = Run(tool, {"--version"});

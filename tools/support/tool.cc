@@ -49,7 +49,8 @@ void EndThreadsOfBlas() {
 void PrintHelp(const Program& program, FlagList list) {
   std::cout << program.name << ": " << program.summary << "\n\n" << program.usage << '\n';
   PrintFlags(GroupsOf(program), list);
-  std::cout << "\nExit codes: 0 done, 1 something failed, 2 the command line is wrong.\n";
+  std::cout << "\nIn names of flags, dashes serve as well as underscores.\n"
+               "Exit codes: 0 done, 1 something failed, 2 the command line is wrong.\n";
 }
 
 }  // namespace
