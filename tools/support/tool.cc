@@ -49,8 +49,9 @@ void EndThreadsOfBlas() {
 void PrintHelp(const Program& program, FlagList list) {
   std::cout << program.name << ": " << program.summary << "\n\n" << program.usage << '\n';
   PrintFlags(GroupsOf(program), list);
-  std::cout << "\nIn names of flags, dashes serve as well as underscores.\n"
-               "Exit codes: 0 done, 1 something failed, 2 the command line is wrong.\n";
+  std::cout
+      << "\nDashes serve for underscores. Exit codes: 0 done, 1 something failed, 2 the command "
+         "line is wrong.\n";
 }
 
 }  // namespace
