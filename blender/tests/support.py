@@ -1,5 +1,6 @@
 """Scenes to test on, and what is in them."""
 
+import math
 import os
 import pathlib
 import shutil
@@ -96,8 +97,9 @@ def select(*items):
 
 
 def seen(item, frame):
-    """The object's vertices as they are shown at a frame, in its own coordinates."""
-    bpy.context.scene.frame_set(frame)
+    """The object's vertices as they are shown at a frame, or between two, in its own coordinates."""
+    whole = math.floor(frame)
+    bpy.context.scene.frame_set(whole, subframe=frame - whole)
     evaluated = item.evaluated_get(bpy.context.evaluated_depsgraph_get())
     mesh = evaluated.to_mesh()
     flat = np.empty(3 * len(mesh.vertices), np.float32)
@@ -190,6 +192,12 @@ class Case(unittest.TestCase):
     def tearDown(self):
         self.assertEqual(temporary_folders(), [])
 
+    def cube(self, name="cube"):
+        """A cube with a second shape key, 'bent'."""
+        cube = add_object(name, CUBE, CUBE_FACES)
+        add_key(cube, "bent", bent_cube())
+        return cube
+
     def inbetweens(self, **settings):
         """With shapes that are one frame apart from frame 1 on, if `settings` have no others."""
         return bpy.ops.shapespace.inbetweens(custom_frames=True, **settings)
@@ -207,7 +215,8 @@ class Case(unittest.TestCase):
         settings = {
             "shapes": 3, "metric": "strain", "use_basis": True, "result": "KEYS",
             "allow_mirrored": False,
-            "custom_frames": True, "frame_start": 1, "frame_step": 1, "cache_folder": "//", "stiffness_group": "",
+            "custom_frames": True, "frame_start": 1, "frame_step": 1,
+            "cache_folder": "//", "stiffness_group": "",
             "custom_bending": False, "custom_volume": False, "custom_tolerance": False,
             "anchor_group": "", "ground": False, "loose_components": False, "open_seams": False,
         }  # fmt: skip

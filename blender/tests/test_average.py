@@ -9,7 +9,6 @@ from support import (
     CUBE,
     CUBE_FACES,
     Case,
-    add_key,
     add_object,
     bent_cube,
     key_names,
@@ -39,8 +38,7 @@ class Average(Case):
         np.testing.assert_allclose(seen(bpy.context.active_object, 1), mean, atol=1e-4)
 
     def test_modes_are_shape_keys(self):
-        item = add_object("cube", CUBE, CUBE_FACES)
-        add_key(item, "bent", bent_cube())
+        self.cube()
         bpy.ops.shapespace.average(modes=1)
         made = bpy.context.active_object
         self.assertEqual(made.name, "cube average")
@@ -54,16 +52,14 @@ class Average(Case):
         self.assertGreater(np.abs(moved - mean).max(), 1e-3)
 
     def test_too_many_modes_are_refused(self):
-        item = add_object("cube", CUBE, CUBE_FACES)
-        add_key(item, "bent", bent_cube())
+        item = self.cube()
         with self.assertRaisesRegex(RuntimeError, "must be at most 1"):
             bpy.ops.shapespace.average(modes=2)
         self.assertEqual(bpy.context.active_object, item)
 
     @unittest.skipIf(importlib.util.find_spec("shapespace") is None, "the Python module is not there")
     def test_the_module_makes_the_same(self):
-        item = add_object("cube", CUBE, CUBE_FACES)
-        add_key(item, "bent", bent_cube())
+        item = self.cube()
         bpy.ops.shapespace.average(modes=1)
         made = bpy.context.active_object
         made.data.shape_keys.key_blocks["Mode 1"].value = 1

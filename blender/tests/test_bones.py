@@ -3,18 +3,7 @@
 import bpy
 import numpy as np
 from mathutils import Matrix
-from support import (
-    CUBE,
-    CUBE_FACES,
-    Case,
-    add_key,
-    add_object,
-    bent_cube,
-    placed,
-    seen,
-    select,
-    state,
-)
+from support import CUBE, CUBE_FACES, Case, add_key, add_object, placed, seen, select, state
 
 
 class Bones(Case):
@@ -108,8 +97,7 @@ class Bones(Case):
         self.assertLess(self.assert_reported(animal, copy, range(1, 10)), rigid)
 
     def test_a_mesh_cache_of_an_object_that_is_placed_and_moves_under_a_subdivision(self):
-        cube = add_object("cube", CUBE, CUBE_FACES)
-        add_key(cube, "bent", bent_cube())
+        cube = self.cube()
         cube.matrix_world = (
             Matrix.Translation((3, -20, 1)) @ Matrix.Rotation(0.7, 4, "X") @ Matrix.Diagonal((1, 2, 3, 1))
         )

@@ -4,18 +4,7 @@ import re
 
 import bpy
 import numpy as np
-from support import (
-    CUBE,
-    CUBE_FACES,
-    PROJECT,
-    Case,
-    add_key,
-    add_object,
-    assign,
-    bent_cube,
-    key_names,
-    select,
-)
+from support import CUBE, CUBE_FACES, PROJECT, Case, add_object, assign, key_names, select
 
 
 class Guide(Case):
@@ -26,8 +15,7 @@ class Guide(Case):
         calls = [line for line in motions.splitlines() if line.startswith("bpy.ops.")]
         self.assertEqual(len(calls), 4)
         twin = add_object("twin", CUBE, CUBE_FACES)
-        cube = add_object("cube", CUBE, CUBE_FACES)
-        add_key(cube, "bent", bent_cube())
+        cube = self.cube()
         bpy.ops.wm.save_as_mainfile(filepath=str(self.folder / "scene.blend"))
         for call in calls:
             select(*([twin] if "transfer" in call else []), cube)

@@ -5,15 +5,10 @@ import unittest.mock
 
 import bpy
 import numpy as np
-from support import CUBE, CUBE_FACES, Case, add_key, add_object, bent_cube, key_names, seen
+from support import CUBE, Case, add_key, add_object, bent_cube, key_names, seen
 
 
 class MeshCache(Case):
-    def cube(self, name="cube"):
-        cube = add_object(name, CUBE, CUBE_FACES)
-        add_key(cube, "bent", bent_cube())
-        return cube
-
     def save(self, name="scene.blend"):
         bpy.ops.wm.save_as_mainfile(filepath=str(self.folder / name))
 

@@ -88,8 +88,7 @@ class Module(Case):
         self.assertGreater(np.abs(found[1] - found[0])[feet].max(), 1e-3)
 
     def test_settings_of_motions(self):
-        cube = add_object("cube", CUBE, CUBE_FACES)
-        add_key(cube, "bent", bent_cube())
+        cube = self.cube()
         assign(cube, "foot", np.array(CUBE)[:, 2] < 0)
         self.near(
             *self.both(
@@ -100,8 +99,7 @@ class Module(Case):
         )  # fmt: skip
 
     def test_smooth_motion(self):
-        cube = add_object("cube", CUBE, CUBE_FACES)
-        add_key(cube, "bent", bent_cube())
+        cube = self.cube()
         add_key(cube, "wide", np.array(CUBE) * [2, 1, 1])
         operator = bpy.ops.shapespace.inbetweens
         chain, _ = self.both(cube, operator, shapes=3)
@@ -195,8 +193,7 @@ class Module(Case):
 class NoModule(Case):
     @unittest.skipIf(MODULE, "the Python module is there")
     def test_is_said_if_it_was_asked_for(self):
-        cube = add_object("cube", CUBE, CUBE_FACES)
-        add_key(cube, "bent", bent_cube())
+        cube = self.cube()
         preferences().engine = "MODULE"
         self.refused(
             "shapespace cannot be imported .*: install it for Blender's Python, or choose",

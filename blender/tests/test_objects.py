@@ -115,8 +115,7 @@ class Objects(Case):
     def test_other_things_that_are_selected_do_not_matter(self):
         light = bpy.data.objects.new("light", bpy.data.lights.new("light", "POINT"))
         bpy.context.scene.collection.objects.link(light)
-        cube = add_object("cube", CUBE, CUBE_FACES)
-        add_key(cube, "bent", bent_cube())
+        cube = self.cube()
         select(cube, light)
         self.inbetweens(shapes=1)
         self.near(seen(cube, 3), bent_cube())

@@ -1,25 +1,13 @@
 """Library overrides: objects that are linked from another file, and may be changed here."""
 
 import bpy
-from support import (
-    CUBE,
-    CUBE_FACES,
-    Case,
-    add_key,
-    add_object,
-    bent_cube,
-    key_names,
-    linked_from_file,
-    seen,
-    select,
-)
+from support import CUBE, CUBE_FACES, Case, bent_cube, key_names, linked_from_file, seen, select
 
 
 class Overrides(Case):
     def override(self):
         """A cube with a modifier, from another file; its mesh is linked."""
-        cube = add_object("cube", CUBE, CUBE_FACES)
-        add_key(cube, "bent", bent_cube())
+        cube = self.cube()
         cube.modifiers.new("Subdivision", "SUBSURF").show_viewport = False
         linked = linked_from_file(self.folder / "library.blend", "cube")
         cube = linked.override_create(remap_local_usages=True)

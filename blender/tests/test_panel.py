@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import bpy
 from shapespace_addon import operators, panel
-from support import CUBE, CUBE_FACES, Case, add_key, add_object, bent_cube
+from support import Case
 
 
 class Layout:
@@ -81,8 +81,7 @@ class Panel(Case):
             self.assertLessEqual({*last.bl_rna.properties.keys()} - {"rna_type"}, found)
 
     def test_figures_of_the_report_are_in_one_of_them(self):
-        cube = add_object("cube", CUBE, CUBE_FACES)
-        add_key(cube, "bent", bent_cube())
+        self.cube()
         bpy.ops.shapespace.inbetweens(shapes=1)
         shown = bpy.context.window_manager.shapespace_report
         labels = names(self.drawn_in_parts(), "label")

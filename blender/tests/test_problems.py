@@ -20,11 +20,6 @@ from support import (
 
 
 class Problems(Case):
-    def cube(self):
-        cube = add_object("cube", CUBE, CUBE_FACES)
-        add_key(cube, "bent", bent_cube())
-        return cube
-
     def all_refused(self, text):
         for operator in (bpy.ops.shapespace.inbetweens, bpy.ops.shapespace.extrapolate):
             self.refused(text, operator)

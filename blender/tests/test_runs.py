@@ -11,7 +11,6 @@ from support import (
     Case,
     add_key,
     add_object,
-    bent_cube,
     children,
     preferences,
     select,
@@ -22,11 +21,6 @@ from support import (
 
 
 class Runs(Case):
-    def cube(self):
-        cube = add_object("cube", CUBE, CUBE_FACES)
-        add_key(cube, "bent", bent_cube())
-        return cube
-
     def stand_in(self, script):
         """Has a script take the place of the tools; `$tool` is the one that was called."""
         stand_in(self.folder, script)

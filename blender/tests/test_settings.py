@@ -7,7 +7,6 @@ from support import (
     CUBE,
     CUBE_FACES,
     Case,
-    add_key,
     add_object,
     assign,
     bent_cube,
@@ -22,8 +21,7 @@ from support import (
 
 class Settings(Case):
     def cube(self):
-        cube = add_object("cube", CUBE, CUBE_FACES)
-        add_key(cube, "bent", bent_cube())
+        cube = super().cube()
         self.foot = assign(cube, "foot", np.array(CUBE)[:, 2] < 0)
         return cube
 

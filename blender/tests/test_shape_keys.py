@@ -37,8 +37,7 @@ class ShapeKeys(Case):
 
     def test_three_poses_of_a_cube_of_quadrilaterals(self):
         wide = np.array(CUBE) * [2, 1, 1]
-        cube = add_object("cube", CUBE, CUBE_FACES)
-        add_key(cube, "bent", bent_cube())
+        cube = self.cube()
         add_key(cube, "wide", wide)
         self.inbetweens(shapes=3)
         frames = self.frames([CUBE, bent_cube(), wide], CUBE_FACES, "--shapes", 3)
@@ -75,8 +74,7 @@ class ShapeKeys(Case):
 
     def test_what_is_computed_is_what_is_seen(self):
         """An object that is moved, turned and scaled, more along one axis than along another."""
-        cube = add_object("cube", CUBE, CUBE_FACES)
-        add_key(cube, "bent", bent_cube())
+        cube = self.cube()
         cube.matrix_world = (
             Matrix.Translation((3, -2, 5))
             @ Matrix.Rotation(0.7, 4, "X")
@@ -117,8 +115,7 @@ class ShapeKeys(Case):
             self.assertEqual((bent.relative_key.name, bent.mute), ("Basis", False))
 
     def test_a_second_run_replaces_the_first(self):
-        cube = add_object("cube", CUBE, CUBE_FACES)
-        add_key(cube, "bent", bent_cube())
+        cube = self.cube()
         self.inbetweens(shapes=5, frame_start=1, frame_step=10)
         self.inbetweens(shapes=2, frame_start=20)
         again = key_names(cube), curves(cube)
@@ -128,8 +125,7 @@ class ShapeKeys(Case):
         self.assertEqual(again, (key_names(fresh), curves(fresh)))
 
     def test_a_key_that_was_renamed_is_the_users(self):
-        cube = add_object("cube", CUBE, CUBE_FACES)
-        add_key(cube, "bent", bent_cube())
+        cube = self.cube()
         self.inbetweens(shapes=1)
         key = cube.data.shape_keys.key_blocks["geo 001"]
         key.name = "half"
@@ -139,8 +135,7 @@ class ShapeKeys(Case):
         self.assertEqual(len(key_names(cube)), 5)  # three poses, one shape in each of two gaps
 
     def test_only_one_key_is_on_at_its_frame(self):
-        cube = add_object("cube", CUBE, CUBE_FACES)
-        add_key(cube, "bent", bent_cube())
+        cube = self.cube()
         self.inbetweens(shapes=4, frame_step=2)
         for i in range(6):
             bpy.context.scene.frame_set(1 + 2 * i)
@@ -148,8 +143,7 @@ class ShapeKeys(Case):
             self.assertEqual(sorted(on), [0, 0, 0, 0, 0 if i == 0 else 1])
 
     def test_the_shape_of_the_present_frame_is_shown_at_once(self):
-        cube = add_object("cube", CUBE, CUBE_FACES)
-        add_key(cube, "bent", bent_cube())
+        cube = self.cube()
         bpy.context.scene.frame_set(3)
         self.inbetweens(shapes=3)
         values = [key.value for key in cube.data.shape_keys.key_blocks]
@@ -158,8 +152,7 @@ class ShapeKeys(Case):
         self.assertIn(1, values)
 
     def test_the_motion_is_seen_though_one_key_was_pinned(self):
-        cube = add_object("cube", CUBE, CUBE_FACES)
-        add_key(cube, "bent", bent_cube())
+        cube = self.cube()
         cube.show_only_shape_key = True
         self.inbetweens(shapes=1)
         self.near(seen(cube, 1), CUBE)
@@ -240,8 +233,7 @@ class ShapeKeys(Case):
         self.assertGreater(np.abs(seen(animal, 7) - poses[0]).max(), 0.01)
 
     def test_cyclic_motion_repeats_as_a_strip(self):
-        cube = add_object("cube", CUBE, CUBE_FACES)
-        add_key(cube, "bent", bent_cube())
+        cube = self.cube()
         add_key(cube, "wide", np.array(CUBE) * [2, 1, 1])
         for use_basis in (True, False):
             self.inbetweens(
@@ -260,8 +252,7 @@ class ShapeKeys(Case):
             animation.action = action
 
     def test_cyclic_motion_that_already_returns(self):
-        cube = add_object("cube", CUBE, CUBE_FACES)
-        add_key(cube, "bent", bent_cube())
+        cube = self.cube()
         add_key(cube, "again", CUBE)
         self.refused(
             "the last pose is the first: leave it out",
@@ -271,8 +262,7 @@ class ShapeKeys(Case):
         )
 
     def test_smooth_motion_through_two_poses_is_the_geodesic_and_says_so(self):
-        cube = add_object("cube", CUBE, CUBE_FACES)
-        add_key(cube, "bent", bent_cube())
+        cube = self.cube()
         work = self.begin(smooth=True, cyclic=False)
         work.wait()
         (note,) = work.finish(bpy.context)
@@ -335,8 +325,7 @@ class ShapeKeys(Case):
         self.assertNotIn('key_blocks["bent"].value', curves(cube))
 
     def test_the_metric_is_the_chosen_one(self):
-        cube = add_object("cube", CUBE, CUBE_FACES)
-        add_key(cube, "bent", bent_cube())
+        cube = self.cube()
         self.inbetweens(shapes=3, metric="rigid")
         frames = self.frames([CUBE, bent_cube()], CUBE_FACES, "--shapes", 3, "--metric", "rigid")
         plain = self.frames([CUBE, bent_cube()], CUBE_FACES, "--shapes", 3)

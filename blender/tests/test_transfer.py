@@ -79,8 +79,7 @@ class Transfer(Case):
         self.assertEqual(own.value, 0)
 
     def test_several_targets_as_caches_each_in_its_place(self):
-        cube = add_object("cube", CUBE, CUBE_FACES)
-        add_key(cube, "bent", bent_cube())
+        cube = self.cube()
         targets = []
         for i in range(2):
             target = add_object(f"target{i}", np.array(CUBE) * (1 + i), CUBE_FACES)
@@ -100,8 +99,7 @@ class Transfer(Case):
             self.assertAlmostEqual(np.linalg.norm(end[0] - end[7]) / (1 + i), size, 3)
 
     def test_what_is_missing(self):
-        cube = add_object("cube", CUBE, CUBE_FACES)
-        add_key(cube, "bent", bent_cube())
+        cube = self.cube()
         self.refused("No target is selected: select bodies", bpy.ops.shapespace.transfer)
         other = add_object("other", CUBE, CUBE_FACES[:5])
         select(other, cube)

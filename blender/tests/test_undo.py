@@ -2,7 +2,7 @@
 
 import bpy
 import numpy as np
-from support import CUBE, CUBE_FACES, Case, add_key, add_object, bent_cube, select, state
+from support import CUBE, CUBE_FACES, Case, add_object, bent_cube, select, state
 
 
 class Undo(Case):
@@ -16,11 +16,6 @@ class Undo(Case):
         self.assertEqual(state(), before)
         bpy.ops.ed.redo()
         self.assertEqual(state(), after)
-
-    def cube(self):
-        cube = add_object("cube", CUBE, CUBE_FACES)
-        add_key(cube, "bent", bent_cube())
-        return cube
 
     def test_shape_keys(self):
         self.cube()

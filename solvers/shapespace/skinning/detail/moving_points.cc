@@ -5,6 +5,7 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/parallel.h>
+#include <shapespace/mesh/internal/sides.h>
 
 namespace shapespace::internal {
 namespace {
@@ -24,22 +25,15 @@ IndexLists NeighboursOfPoints(const Connectivity& connectivity, const std::vecto
 
 // Numbers the components of points that edges connect.
 void FindComponents(MovingPoints* points) {
-  points->component_of.assign(points->vertices.size(), -1);
-  std::vector<int> open;
-  const auto enter = [&](int p) {
-    if (points->component_of[p] >= 0) return false;
-    points->component_of[p] = points->num_components;
-    open.push_back(p);
-    return true;
-  };
-  for (size_t first = 0; first < points->vertices.size(); ++first) {
-    if (!enter(static_cast<int>(first))) continue;
-    while (!open.empty()) {
-      const int p = open.back();
-      open.pop_back();
-      for (const int q : points->neighbours[p]) enter(q);
-    }
-    ++points->num_components;
+  const auto count = static_cast<int>(points->vertices.size());
+  UnionFind joined(count);
+  for (int p = 0; p < count; ++p) {
+    for (const int q : points->neighbours[p]) joined.Join(p, q);
+  }
+  for (int p = 0; p < count; ++p) {
+    const int first = joined.Find(p);  // the smallest of the component
+    points->component_of.push_back(first == p ? points->num_components++
+                                              : points->component_of[first]);
   }
 }
 

@@ -52,8 +52,9 @@ TrianglePreview::TrianglePreview(const PoseModes& modes)
     const TriangleFrame mean = PreviewFrame(modes.mean, corners);
     rotations_[f] = Eigen::Quaterniond(mean.axes);
     bool has_area = HasArea(mean);
-    for (const Shape& pose : modes.poses)
+    for (const Shape& pose : modes.poses) {
       has_area = has_area && HasArea(PreviewFrame(pose, corners));
+    }
     if (!has_area) return;
     const Eigen::Matrix2d inverse = mean.edges.inverse();
     for (int i = 0; i < modes.NumPoses(); ++i) {
