@@ -92,8 +92,8 @@ struct SkinningResult {
 ///
 /// Vertices are divided into as many clusters as there are to be bones, which move nearly rigidly.
 /// Then weights (for motions as they are) and motions (for weights as they are) are fitted in turn,
-/// for as long as that lowers the error. Weights are smooth along the surface, and a bone moves what
-/// is near. Joints are where neighbouring bones move least relative to each other.
+/// for as long as that lowers the error. Weights are smooth along the surface, and a bone moves
+/// what is near. Joints are where neighbouring bones move least relative to each other.
 ///
 /// The result does not depend on threads, and up to rounding not on unit or place: the path scaled
 /// and moved rigidly has the scaled and moved bones. Bones without use are left out, with a warning
