@@ -18,6 +18,14 @@ work=$prefix/src
 mkdir -p "$work" "$prefix/licenses"
 cp /usr/share/doc/zlib1g-dev/copyright "$prefix/licenses/zlib"
 cp /usr/share/doc/libgif-dev/copyright "$prefix/licenses/giflib"
+# For another system, whose compiler must not see the headers of this one, those that are no more than
+# headers are copied.
+if [[ ${CMAKE_TOOLCHAIN_FILE-} ]]; then
+  mkdir -p "$prefix"/{include,share/cmake}
+  cp -r /usr/include/{eigen3,nlohmann,stb,tiny_gltf.h,xxhash.h} "$prefix/include/"
+  cp -r /usr/share/eigen3 "$prefix/share/"
+  cp -r /usr/share/cmake/nlohmann_json "$prefix/share/cmake/"
+fi
 cd "$work"
 
 # Fetches Debian 12's sources on any Debian, without changing what apt knows of: the originals, without
@@ -37,7 +45,7 @@ fetch() {
 unpack() {
   rm -rf "$1"
   mkdir "$1"
-  tar -x --strip-components=1 -C "$1" -f "$1"_*.orig.tar.?z
+  tar -x --strip-components=1 -C "$1" -f "$1"_*.orig.tar.*
 }
 
 # with_cmake SOURCE FOLDER OPTION...: builds and installs what CMake builds in that folder of a source.
@@ -55,6 +63,22 @@ with_cmake() {
 # Of each library, programs take the functions that they call, and no more (--gc-sections).
 flags="-ffunction-sections -fdata-sections -ffile-prefix-map=$work="
 
+build_giflib() {
+  # It has a Makefile, which knows nothing of other systems.
+  cat >giflib/CMakeLists.txt <<'END' && with_cmake giflib .
+cmake_minimum_required(VERSION 3.22)
+project(giflib C)
+add_library(gif dgif_lib.c egif_lib.c gifalloc.c gif_err.c gif_hash.c openbsd-reallocarray.c)
+install(TARGETS gif)
+install(FILES gif_lib.h TYPE INCLUDE)
+END
+}
+build_googletest() { with_cmake googletest . -DBUILD_GMOCK=OFF; }
+build_zlib() {
+  # A DLL, whose description Debian's archive lacks, and which would have the static library's name.
+  sed -i 's/win32.zlib1.rc//; s/(zlib zlibstatic PROPERTIES OUTPUT/(zlibstatic PROPERTIES OUTPUT/' \
+    zlib/CMakeLists.txt && with_cmake zlib .
+}
 build_expat() {
   with_cmake expat expat -DEXPAT_SHARED_LIBS=OFF -DEXPAT_BUILD_TOOLS=OFF -DEXPAT_BUILD_EXAMPLES=OFF \
     -DEXPAT_BUILD_TESTS=OFF -DEXPAT_BUILD_DOCS=OFF

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <mutex>
 #include <string>
 #include <utility>
@@ -12,9 +12,8 @@
 #include <Eigen/Geometry>
 
 #include <shapespace/base/error.h>
-#include <shapespace/base/internal/embree.h>
-#include <shapespace/base/internal/fork_join.h>
 #include <shapespace/base/parallel.h>
+#include <shapespace/mesh/internal/box_tree.h>
 #include <shapespace/mesh/internal/geometry.h>
 
 namespace shapespace {
@@ -110,19 +109,31 @@ Groups MakeGroups(const Connectivity& connectivity) {
   return groups;
 }
 
-// One shape, for Embree's callbacks.
+// One shape.
 struct Triangles {
-  const Eigen::Matrix3Xi* indices;
-  const Groups* groups;
-  Shape vertices;  // within the unit cube about the origin, where float boxes are accurate
-  size_t most;     // pairs that are looked for
-  std::mutex mutex;
-  std::vector<std::pair<int, int>>* pairs;  // guarded by mutex, read after callbacks' destruction
-  internal::ForkJoin callbacks;
+  const Eigen::Matrix3Xi& indices;
+  const Groups& groups;
+  Shape vertices;  // within the unit cube about the origin
 
-  Corners At(unsigned f) const {
-    const auto corner = indices->col(f);
+  Corners At(int f) const {
+    const auto corner = indices.col(f);
     return {vertices.col(corner(0)), vertices.col(corner(1)), vertices.col(corner(2))};
+  }
+
+  // Of the groups.
+  internal::BoxTree Boxes() const {
+    const int count = static_cast<int>(groups.fan.size());
+    Eigen::Matrix3Xd low(3, count), high(3, count);
+    for (int group = 0; group < count; ++group) {
+      low.col(group) = high.col(group) = At(groups.order[groups.begin[group]])[0];
+      for (int i = groups.begin[group]; i < groups.begin[group + 1]; ++i) {
+        for (const Eigen::Vector3d& corner : At(groups.order[i])) {
+          low.col(group) = low.col(group).cwiseMin(corner);
+          high.col(group) = high.col(group).cwiseMax(corner);
+        }
+      }
+    }
+    return {low, high};
   }
 };
 
@@ -135,33 +146,10 @@ bool BoxesApart(const Corners& a, const Corners& b) {
   return false;
 }
 
-void Bounds(const RTCBoundsFunctionArguments* arguments) {
-  const auto* triangles = static_cast<const Triangles*>(arguments->geometryUserPtr);
-  const internal::ForkJoin::Piece piece(triangles->callbacks);
-  const Groups& groups = *triangles->groups;
-  const int group = static_cast<int>(arguments->primID);
-  Eigen::Vector3d low = triangles->At(groups.order[groups.begin[group]])[0], high = low;
-  for (int i = groups.begin[group]; i < groups.begin[group + 1]; ++i) {
-    for (const Eigen::Vector3d& corner : triangles->At(groups.order[i])) {
-      low = low.cwiseMin(corner);
-      high = high.cwiseMax(corner);
-    }
-  }
-  // The boxes are enlarged by more than the rounding to float of coordinates in the unit cube.
-  constexpr float kRounding = std::numeric_limits<float>::epsilon();
-  RTCBounds* bounds = arguments->bounds_o;
-  bounds->lower_x = static_cast<float>(low.x()) - kRounding;
-  bounds->lower_y = static_cast<float>(low.y()) - kRounding;
-  bounds->lower_z = static_cast<float>(low.z()) - kRounding;
-  bounds->upper_x = static_cast<float>(high.x()) + kRounding;
-  bounds->upper_y = static_cast<float>(high.y()) + kRounding;
-  bounds->upper_z = static_cast<float>(high.z()) + kRounding;
-}
-
 // Appends the two triangles if they intersect and have no vertex in common.
 void AddIfCrossing(const Triangles& triangles, int first, int second,
                    std::vector<std::pair<int, int>>* found) {
-  const auto u = triangles.indices->col(first), v = triangles.indices->col(second);
+  const auto u = triangles.indices.col(first), v = triangles.indices.col(second);
   if (u(0) == v(0) || u(0) == v(1) || u(0) == v(2) || u(1) == v(0) || u(1) == v(1) ||
       u(1) == v(2) || u(2) == v(0) || u(2) == v(1) || u(2) == v(2)) {
     return;
@@ -172,62 +160,32 @@ void AddIfCrossing(const Triangles& triangles, int first, int second,
   }
 }
 
-// Called on several threads. For a scene with itself Embree finds every pair twice.
-void OnPairs(void* user, RTCCollision* pairs, unsigned num_pairs) {
-  auto* triangles = static_cast<Triangles*>(user);
-  const internal::ForkJoin::Piece piece(triangles->callbacks);
-  {
-    const std::lock_guard<std::mutex> lock(triangles->mutex);
-    if (triangles->pairs->size() >= triangles->most) return;
-  }
-  const Groups& groups = *triangles->groups;
-  std::vector<std::pair<int, int>> found;
-  for (unsigned i = 0; i < num_pairs; ++i) {
-    const unsigned first = pairs[i].primID0, second = pairs[i].primID1;
-    if (first >= second) continue;
-    if (groups.fan[first] >= 0 && groups.fan[first] == groups.fan[second]) continue;
+// All intersections, in any order; of more than `most`, at least that many.
+std::vector<std::pair<int, int>> Collide(const Triangles& triangles, size_t most) {
+  const Groups& groups = triangles.groups;
+  std::vector<std::pair<int, int>> pairs;
+  std::mutex mutex;
+  std::atomic<bool> complete{false};
+  triangles.Boxes().VisitPairs([&](int first, int second) {
+    if (complete) return;
+    if (groups.fan[first] >= 0 && groups.fan[first] == groups.fan[second]) return;
+    std::vector<std::pair<int, int>> found;
     for (int k = groups.begin[first]; k < groups.begin[first + 1]; ++k) {
       for (int l = groups.begin[second]; l < groups.begin[second + 1]; ++l) {
-        AddIfCrossing(*triangles, groups.order[k], groups.order[l], &found);
+        AddIfCrossing(triangles, groups.order[k], groups.order[l], &found);
       }
     }
-  }
-  if (found.empty()) return;
-  const std::lock_guard<std::mutex> lock(triangles->mutex);
-  triangles->pairs->insert(triangles->pairs->end(), found.begin(), found.end());
+    if (found.empty()) return;
+    const std::lock_guard<std::mutex> lock(mutex);
+    pairs.insert(pairs.end(), found.begin(), found.end());
+    if (pairs.size() >= most) complete = true;
+  });
+  return pairs;
 }
 
-void Check(RTCDevice device) {
-  switch (rtcGetDeviceError(device)) {
-    case RTC_ERROR_NONE:
-      return;
-    case RTC_ERROR_OUT_OF_MEMORY:
-      throw Error("intersections: not enough memory for Embree");
-    default:
-      throw Error("intersections: Embree failed");
-  }
-}
-
-// All intersections, in any order; of more than `most`, at least that many.
-void Collide(RTCDevice device, Triangles* triangles) {
-  const std::unique_ptr<RTCSceneTy, void (*)(RTCScene)> scene(rtcNewScene(device), rtcReleaseScene);
-  const std::unique_ptr<RTCGeometryTy, void (*)(RTCGeometry)> geometry(
-      rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER), rtcReleaseGeometry);
-  Check(device);
-  rtcSetGeometryUserPrimitiveCount(geometry.get(),
-                                   static_cast<unsigned>(triangles->groups->fan.size()));
-  rtcSetGeometryUserData(geometry.get(), triangles);
-  rtcSetGeometryBoundsFunction(geometry.get(), Bounds, nullptr);
-  rtcCommitGeometry(geometry.get());
-  rtcAttachGeometry(scene.get(), geometry.get());
-  rtcCommitScene(scene.get());
-  rtcCollide(scene.get(), scene.get(), OnPairs, triangles);
-  Check(device);
-}
-
-std::vector<std::pair<int, int>> FindOnDevice(RTCDevice device, const Connectivity& connectivity,
-                                              const Groups& groups, const Shape& shape,
-                                              size_t most = std::numeric_limits<size_t>::max()) {
+std::vector<std::pair<int, int>> Find(const Connectivity& connectivity, const Groups& groups,
+                                      const Shape& shape,
+                                      size_t most = std::numeric_limits<size_t>::max()) {
   if (shape.cols() != connectivity.NumVertices()) {
     throw MeshError("intersections: the shape has " + std::to_string(shape.cols()) +
                     " vertices, its connectivity " + std::to_string(connectivity.NumVertices()));
@@ -237,34 +195,17 @@ std::vector<std::pair<int, int>> FindOnDevice(RTCDevice device, const Connectivi
   const Eigen::Vector3d low = shape.rowwise().minCoeff(), high = shape.rowwise().maxCoeff();
   const double extent = (high - low).maxCoeff();
   if (!(extent > 0)) return {};
-  std::vector<std::pair<int, int>> pairs;
-  {
-    Triangles triangles{&connectivity.Triangles(),
-                        &groups,
-                        (shape.colwise() - (low + high) / 2) / extent,
-                        most,
-                        {},
-                        &pairs,
-                        {}};
-    Collide(device, &triangles);
-  }
+  std::vector<std::pair<int, int>> pairs = Collide(
+      {connectivity.Triangles(), groups, (shape.colwise() - (low + high) / 2) / extent}, most);
   std::sort(pairs.begin(), pairs.end());
   return pairs;
-}
-
-using Device = std::unique_ptr<RTCDeviceTy, void (*)(RTCDevice)>;
-
-Device StartDevice() {
-  Device device(rtcNewDevice(nullptr), rtcReleaseDevice);
-  if (!device) throw Error("intersections: Embree cannot start on this machine");
-  return device;
 }
 
 }  // namespace
 
 std::vector<std::pair<int, int>> FindIntersections(const Connectivity& connectivity,
                                                    const Shape& shape) {
-  return FindOnDevice(StartDevice().get(), connectivity, MakeGroups(connectivity), shape);
+  return Find(connectivity, MakeGroups(connectivity), shape);
 }
 
 std::int64_t CountIntersections(const Connectivity& connectivity, const Shape& shape) {
@@ -273,19 +214,16 @@ std::int64_t CountIntersections(const Connectivity& connectivity, const Shape& s
 
 std::int64_t CountIntersections(const Connectivity& connectivity, const Shape& shape,
                                 std::int64_t most) {
-  const auto found = FindOnDevice(StartDevice().get(), connectivity, MakeGroups(connectivity),
-                                  shape, static_cast<size_t>(most));
+  const auto found = Find(connectivity, MakeGroups(connectivity), shape, static_cast<size_t>(most));
   return std::min(most, static_cast<std::int64_t>(found.size()));
 }
 
 std::vector<std::int64_t> CountIntersections(const Connectivity& connectivity,
                                              const std::vector<Shape>& shapes) {
-  const Device device = StartDevice();
   const Groups groups = MakeGroups(connectivity);
   std::vector<std::int64_t> counts(shapes.size());
   ParallelFor(static_cast<int>(shapes.size()), [&](int i) {
-    counts[i] = static_cast<std::int64_t>(
-        FindOnDevice(device.get(), connectivity, groups, shapes[i]).size());
+    counts[i] = static_cast<std::int64_t>(Find(connectivity, groups, shapes[i]).size());
   });
   return counts;
 }

@@ -26,9 +26,9 @@ Shape VertexNormals(const Connectivity& connectivity, const Shape& shape);
 /// Unit normals of its triangles; zero for triangles without area.
 Shape TriangleNormals(const Connectivity& connectivity, const Shape& shape);
 
-/// A shape of a mesh, prepared for queries of the nearest point. Candidates are found by Embree's
-/// bounding volume hierarchy, distances are computed in double precision. Nearest() may be called
-/// from several threads at once.
+/// A shape of a mesh, prepared for queries of the nearest point. Candidates are found by a
+/// hierarchy of boxes, distances are computed in double precision. Nearest() may be called from
+/// several threads at once.
 class MeshSurface {
  public:
   /// The shape must be finite and have an extent; triangles without area are never found.

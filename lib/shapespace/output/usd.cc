@@ -1,7 +1,6 @@
 #include <shapespace/output/usd.h>
 
 #include <algorithm>
-#include <charconv>
 #include <ostream>
 #include <string_view>
 
@@ -9,6 +8,7 @@
 #include <shapespace/base/internal/atomic_file.h>
 #include <shapespace/base/internal/check_range.h>
 #include <shapespace/base/internal/extension.h>
+#include <shapespace/base/internal/number_chars.h>
 #include <shapespace/files/internal/storable.h>
 #include <shapespace/output/internal/colour.h>
 
@@ -173,7 +173,7 @@ class UsdWriter {
   template <typename Number>
   void WriteNumber(Number number) {
     char digits[32];
-    const char* end = std::to_chars(digits, digits + sizeof digits, number).ptr;
+    const char* end = internal::ToChars(digits, digits + sizeof digits, number);
     stream_.write(digits, end - digits);
   }
 

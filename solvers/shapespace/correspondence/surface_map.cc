@@ -1,6 +1,5 @@
 #include <shapespace/correspondence/surface_map.h>
 
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <ostream>
@@ -11,6 +10,7 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/atomic_file.h>
+#include <shapespace/base/internal/number_chars.h>
 #include <shapespace/base/internal/read_file.h>
 #include <shapespace/base/internal/text.h>
 #include <shapespace/base/parallel.h>
@@ -39,7 +39,7 @@ void WritePoints(std::ostream& out, const char* name, const SurfacePoints& point
                  const Eigen::VectorXd& last) {
   char text[32];
   const auto write = [&](double value) {
-    const auto end = std::to_chars(text, text + sizeof text, value).ptr;
+    const auto end = internal::ToChars(text, text + sizeof text, value);
     out << ' ' << std::string_view(text, static_cast<size_t>(end - text));
   };
   out << name << ' ' << points.NumVertices() << '\n';

@@ -1,6 +1,7 @@
 #ifndef SHAPESPACE_GEODESIC_GEODESIC_H_
 #define SHAPESPACE_GEODESIC_GEODESIC_H_
 
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -115,6 +116,12 @@ struct GeodesicOptions {
   /// With `avoid_contact`: a surface that the body must not touch either. The poses then are where
   /// they are to be, and the body moves from one to the next past the obstacle.
   std::optional<Obstacle> obstacle;
+
+  /// Called with the whole path as it is so far, when coarse solves of a piece are done and when
+  /// solves of the mesh itself are, before the next begins: for programs that show it meanwhile.
+  /// Finer shapes are lifted and refined, later pieces are straight-line blends. Without it nothing
+  /// is made to be shown.
+  std::function<void(const Path& so_far)> preview;
 
   /// \throw InvalidOptions naming the field; MeshError if the obstacle is not valid.
   void Validate() const;

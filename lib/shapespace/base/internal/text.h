@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include <shapespace/base/error.h>
+#include <shapespace/base/internal/number_chars.h>
 #include <shapespace/base/internal/quoted.h>
 
 // Strict reading of lines, words and numbers of a text file.
@@ -128,7 +129,7 @@ inline std::optional<double> ParseDouble(std::string_view word) {
   }
   double value = 0.0;
   const char* end = word.data() + word.size();
-  const auto [stop, error] = std::from_chars(word.data(), end, value);
+  const auto [stop, error] = FromChars(word.data(), end, &value);
   if (stop != end || error == std::errc::invalid_argument) return std::nullopt;
   if (error == std::errc::result_out_of_range) {
     // from_chars does not distinguish overflow from underflow: underflow is recognised by a

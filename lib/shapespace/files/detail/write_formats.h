@@ -1,10 +1,10 @@
 #ifndef SHAPESPACE_FILES_DETAIL_WRITE_FORMATS_H_
 #define SHAPESPACE_FILES_DETAIL_WRITE_FORMATS_H_
 
-#include <charconv>
 #include <string>
 #include <string_view>
 
+#include <shapespace/base/internal/number_chars.h>
 #include <shapespace/mesh/shape.h>
 #include <shapespace/mesh/soup.h>
 
@@ -33,7 +33,7 @@ class OutputText {
   void Add(std::string_view words, Number number) {
     Add(words);
     char buffer[32];
-    text_.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, number).ptr);
+    text_.append(buffer, ToChars(buffer, buffer + sizeof buffer, number));
   }
 
   const std::string& Get() const { return text_; }

@@ -1,6 +1,7 @@
 #include <shapespace/geodesic/detail/geodesic_levels.h>
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -205,6 +206,17 @@ void GeodesicLevels::SolvePieces(const AlignedPoses& poses, Progress* progress,
   for (int i = 0; i < pieces; ++i) {
     Plan(i, schedule, *workspace, options_.start, &workload);
   }
+  // Appends piece i.
+  const auto append = [&](int i, std::vector<Shape> shapes, Path* to) {
+    for (int k = 1; k <= options_.shapes + 1; ++k) {
+      const double t = static_cast<double>(k) / (options_.shapes + 1);
+      metric_->connectivity->CopyToTwins(&shapes[k]);
+      to->shapes.push_back(std::move(shapes[k]));
+      to->parameters.push_back((i + t) / pieces);
+      to->motions.push_back(InterpolateMotion(motions[i], motions[i + 1], t));
+    }
+    to->poses.push_back(to->NumShapes() - 1);
+  };
   for (int i = 0; i < pieces; ++i) {
     std::vector<Shape> shapes;
     if (workload.Stopped() || AreNear(aligned[i], aligned[i + 1])) {
@@ -212,7 +224,19 @@ void GeodesicLevels::SolvePieces(const AlignedPoses& poses, Progress* progress,
     }
     if (!workload.Stopped() &&
         (shapes.empty() || !IsSolved(i, shapes, options_, &workspace->back(), &summary))) {
-      GeodesicPiece piece(i, hierarchy_, workspace, options_, &workload, &summary);
+      std::function<void(std::vector<Shape>)> show;
+      if (options_.preview) {
+        show = [&](std::vector<Shape> so_far) {
+          Path preview = path;
+          MoveStraight(without_cost_, &so_far);
+          append(i, std::move(so_far), &preview);
+          for (int j = i + 1; j < pieces; ++j) {
+            append(j, Blend(aligned[j], aligned[j + 1], options_.shapes), &preview);
+          }
+          options_.preview(preview);
+        };
+      }
+      GeodesicPiece piece(i, hierarchy_, workspace, options_, &workload, &summary, show);
       piece.Run(schedule, more_shapes_allowed);
       shapes = std::move(piece).Result();
       MoveStraight(without_cost_, &shapes);
@@ -221,14 +245,7 @@ void GeodesicLevels::SolvePieces(const AlignedPoses& poses, Progress* progress,
                                    " on are straight-line blends of their poses");
       }
     }
-    for (int k = 1; k <= options_.shapes + 1; ++k) {
-      const double t = static_cast<double>(k) / (options_.shapes + 1);
-      metric_->connectivity->CopyToTwins(&shapes[k]);
-      path.shapes.push_back(std::move(shapes[k]));
-      path.parameters.push_back((i + t) / pieces);
-      path.motions.push_back(InterpolateMotion(motions[i], motions[i + 1], t));
-    }
-    path.poses.push_back(path.NumShapes() - 1);
+    append(i, std::move(shapes), &path);
   }
   if (options_.avoid_contact) AvoidContact(workspace, &workload, result);
   if (workload.Stopped()) summary.termination = Termination::kCancelled;

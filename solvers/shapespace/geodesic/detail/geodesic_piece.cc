@@ -133,13 +133,15 @@ void Plan(int index, const std::vector<ScheduleStep>& schedule,
 
 GeodesicPiece::GeodesicPiece(int index, const Hierarchy& hierarchy,
                              std::vector<Resolution>* resolutions, const GeodesicOptions& options,
-                             Workload* workload, GeodesicSummary* summary)
+                             Workload* workload, GeodesicSummary* summary,
+                             std::function<void(std::vector<Shape>)> show)
     : index_(index),
       hierarchy_(hierarchy),
       resolutions_(*resolutions),
       options_(options),
       workload_(*workload),
-      summary_(*summary) {}
+      summary_(*summary),
+      show_(std::move(show)) {}
 
 void GeodesicPiece::Run(const std::vector<ScheduleStep>& schedule, bool more_shapes_allowed) {
   std::vector<Known> ends(resolutions_.size());
@@ -189,6 +191,8 @@ GeodesicPiece::Attempt GeodesicPiece::TakeSteps(const std::vector<ScheduleStep>&
                                                 size_t begin, size_t end, Attempt attempt) {
   known_ = std::move(attempt.known);
   for (size_t i = begin; i < end; ++i) {
+    const bool mesh_itself = i > 0 && schedule[i - 1].level + 1 == hierarchy_.NumLevels();
+    if (begin > 0 && (i == begin || mesh_itself)) Show(schedule, i);
     const size_t row = summary_.levels.size();
     TakeStep(schedule[i], attempt.start, i + 1 == schedule.size());
     for (size_t k = row; k < summary_.levels.size(); ++k) attempt.rows.push_back(k);
@@ -196,6 +200,17 @@ GeodesicPiece::Attempt GeodesicPiece::TakeSteps(const std::vector<ScheduleStep>&
   if (!attempt.rows.empty()) attempt.energy = summary_.levels.back().energy;
   attempt.known = std::move(known_);
   return attempt;
+}
+
+void GeodesicPiece::Show(const std::vector<ScheduleStep>& schedule, size_t begin) {
+  if (!show_ || workload_.Stopped()) return;
+  const std::vector<Known> known = known_;
+  for (size_t i = begin; i < schedule.size(); ++i) {
+    Guess guess = CanLift(schedule[i]) ? Lift(schedule[i]) : Refine(schedule[i]);
+    known_[schedule[i].level].shapes = std::move(guess.shapes);
+  }
+  show_(std::move(known_.back().shapes));
+  known_ = known;
 }
 
 void GeodesicPiece::TakeStep(const ScheduleStep& step, PieceStart start, bool last) {

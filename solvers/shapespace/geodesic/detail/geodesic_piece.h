@@ -1,6 +1,7 @@
 #ifndef SHAPESPACE_GEODESIC_DETAIL_GEODESIC_PIECE_H_
 #define SHAPESPACE_GEODESIC_DETAIL_GEODESIC_PIECE_H_
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -24,8 +25,10 @@ class GeodesicPiece {
  public:
   /// For the piece between pose `index` and the next. `resolutions` has one entry for each level of
   /// `hierarchy`; `workload` contains the piece's steps (`Plan`).
+  /// `show`, which may be null, is called with the shapes on the finest level as they are so far.
   GeodesicPiece(int index, const Hierarchy& hierarchy, std::vector<Resolution>* resolutions,
-                const GeodesicOptions& options, Workload* workload, GeodesicSummary* summary);
+                const GeodesicOptions& options, Workload* workload, GeodesicSummary* summary,
+                std::function<void(std::vector<Shape>)> show);
 
   /// Takes all steps. The first ones, with one inner shape on few vertices, select the valley
   /// (local minimum) of the path: they are solved from one start after the other, until a result is
@@ -52,6 +55,8 @@ class GeodesicPiece {
     std::vector<size_t> rows = {};  // in the summary's table
   };
 
+  // Shows what the steps from `begin` on would give if they only lifted and refined.
+  void Show(const std::vector<ScheduleStep>& schedule, size_t begin);
   Attempt TakeSteps(const std::vector<ScheduleStep>& schedule, size_t begin, size_t end,
                     Attempt attempt);
   // If a segment is much faster than the mean, a part rests and then turns over within it. There
@@ -94,6 +99,7 @@ class GeodesicPiece {
   const GeodesicOptions& options_;
   Workload& workload_;
   GeodesicSummary& summary_;
+  const std::function<void(std::vector<Shape>)> show_;
   std::vector<Known> known_;  // per level
 };
 

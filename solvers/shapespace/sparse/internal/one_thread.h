@@ -15,7 +15,7 @@ class OneThread {
   ~OneThread();
 
  private:
-  int levels_ = 0;  ///< the previous limit of OpenMP's nested regions
+  [[maybe_unused]] int levels_ = 0;  ///< the previous limit of OpenMP's nested regions
 };
 
 }  // namespace shapespace::internal

@@ -1,0 +1,180 @@
+// What index.js offers, for any place of its files: docs in index.d.ts.
+
+const inNode = typeof process === 'object' && Boolean(process.versions?.node);
+
+/** What the library refuses, or cannot do. */
+export class ShapespaceError extends Error {
+  constructor({ message, option, fields }) {
+    super(message);
+    this.name = new.target.name;
+    if (option) this.option = option;
+    if (fields) this.fields = fields;
+  }
+}
+export class OptionsError extends ShapespaceError {}
+export class MeshError extends ShapespaceError {}
+export class MismatchError extends ShapespaceError {}
+export class FileError extends ShapespaceError {}
+export class SolverError extends ShapespaceError {}
+
+const errorClasses = { OptionsError, MeshError, MismatchError, FileError, SolverError };
+
+/** A motion: shapes at times, with all that is needed to continue it. */
+export class Path {
+  constructor(content) {
+    Object.assign(this, content);
+  }
+
+  /** Positions at a time between the first and the last, linear between shapes; into `out` if given. */
+  at(time, out = new Float32Array(this.shapes[0].length)) {
+    const { times, shapes } = this;
+    const last = times.length - 1;
+    const t = Math.min(Math.max(time, times[0]), times[last]);
+    let k = 0;
+    while (k + 1 < last && times[k + 1] <= t) ++k;
+    const next = Math.min(k + 1, last);
+    const share = next === k ? 0 : (t - times[k]) / (times[next] - times[k]);
+    const from = shapes[k];
+    const to = shapes[next];
+    for (let i = 0; i < from.length; ++i) out[i] = from[i] + share * (to[i] - from[i]);
+    return out;
+  }
+}
+
+/** Solves in workers that `start` makes, which load the module `wasm`. */
+export class Shapespace {
+  #wasm;
+  #start;
+  #worker = null;
+  #generation = 0; // of workers: deformers live in one
+  #deformers = 0;
+  #lastCall = Promise.resolve();
+
+  constructor(wasm, start) {
+    this.#wasm = wasm;
+    this.#start = start;
+  }
+
+  read(poses, options = {}) {
+    const { signal, ...mesh } = options;
+    return this.#call('read', [poses, { mesh }], { signal });
+  }
+
+  async interpolate(poses, options = {}) {
+    const { events, rest } = split(options);
+    const preview = Boolean(events.onPreview);
+    return new Path(await this.#call('interpolate', [poses, rest, { preview }], events));
+  }
+
+  async extrapolate(path, steps, options = {}) {
+    const { events, rest } = split(options);
+    return new Path(await this.#call('extrapolate', [path.file, steps, rest], events));
+  }
+
+  async transfer(path, target, options = {}) {
+    const { events, rest } = split(options);
+    const positions = target?.positions ?? target;
+    return new Path(await this.#call('transfer', [path.file, positions, rest], events));
+  }
+
+  average(poses, options = {}) {
+    const { events, rest } = split(options);
+    return this.#call('average', [poses, rest], events);
+  }
+
+  async write(path, name, options = {}) {
+    return (await this.#call('write', [path.file, name, options], {})).files;
+  }
+
+  deform(mesh, options = {}) {
+    const { rest } = split(options);
+    const key = ++this.#deformers;
+    let made = 0; // the worker in which it lives
+    const make = async () => {
+      await this.#call('makeDeformer', [key, mesh, rest], {});
+      made = this.#generation;
+    };
+    const update = async (handles, events = {}) => {
+      if (made !== this.#generation) await make();
+      return new Path(await this.#call('deform', [key, handles], events));
+    };
+    const close = () =>
+      made === this.#generation ? this.#call('dropDeformer', [key], {}) : Promise.resolve();
+    return make().then(() => ({ update, close }));
+  }
+
+  close() {
+    this.#worker?.terminate();
+    this.#worker = null;
+  }
+
+  // Calls wait for those before them.
+  #call(name, args, events) {
+    const result = this.#lastCall.then(() => this.#run(name, args, events));
+    this.#lastCall = result.catch(() => {});
+    return result;
+  }
+
+  async #run(name, args, events) {
+    events.signal?.throwIfAborted();
+    if (!this.#worker) {
+      this.#worker = await this.#start();
+      ++this.#generation;
+      await this.#exchange('load', [this.#wasm], {});
+    }
+    return this.#exchange(name, args, events);
+  }
+
+  // Sends a call and waits for its result. A worker that solves hears nothing, so what is aborted
+  // ends with its worker; the next call starts another.
+  #exchange(name, args, { signal, onProgress, onPreview }) {
+    const worker = this.#worker;
+    return new Promise((resolve, reject) => {
+      const done = (settle, value) => {
+        signal?.removeEventListener('abort', abort);
+        hear(worker, null);
+        settle(value);
+      };
+      const abort = () => {
+        this.close();
+        done(reject, signal.reason);
+      };
+      signal?.addEventListener('abort', abort);
+      hear(worker, {
+        message({ progress, preview, result }) {
+          if (progress) return onProgress?.(progress);
+          if (preview) return onPreview?.(new Path(preview));
+          if (!result.error) return done(resolve, result);
+          if (result.error.fatal) this.close();
+          const { kind } = result.error;
+          return done(reject, new (errorClasses[kind] ?? ShapespaceError)(result.error));
+        },
+        error: (error) => {
+          this.close();
+          done(reject, new SolverError({ message: `the worker has ended: ${error.message}` }));
+        },
+      });
+      worker.postMessage({ id: 0, name, args });
+    });
+  }
+}
+
+// Sets what hears a worker's messages; null: nothing.
+function hear(worker, listener) {
+  if (inNode) {
+    worker.removeAllListeners('message');
+    worker.removeAllListeners('error');
+    if (!listener) return worker.unref(); // an idle worker keeps no program from ending
+    worker.ref();
+    worker.on('message', listener.message);
+    worker.on('error', listener.error);
+    return;
+  }
+  worker.onmessage = listener && (({ data }) => listener.message(data));
+  worker.onerror = listener && listener.error;
+}
+
+function split(options) {
+  const { signal, onProgress, onPreview, ...rest } = options;
+  return { events: { signal, onProgress, onPreview }, rest };
+}

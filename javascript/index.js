@@ -1,0 +1,28 @@
+// Geodesic modeling of triangle meshes in shape space, solved in a worker: docs in index.d.ts.
+
+import { FileError, Shapespace } from './core.js';
+
+export * from './core.js';
+
+const inNode = typeof process === 'object' && Boolean(process.versions?.node);
+
+async function startWorker() {
+  const url = new URL('./worker.js', import.meta.url);
+  if (!inNode) return new Worker(url, { type: 'module' });
+  const { Worker: NodeWorker } = await import('node:worker_threads');
+  return new NodeWorker(url);
+}
+
+async function fetchModule(url) {
+  if (inNode && url.protocol === 'file:') {
+    return (await import('node:fs/promises')).readFile(url);
+  }
+  const answer = await fetch(url);
+  if (!answer.ok) throw new FileError({ message: `${url}: ${answer.status} ${answer.statusText}` });
+  return answer.arrayBuffer();
+}
+
+export async function load({ wasm, start = startWorker } = {}) {
+  const url = new URL('./shapespace-module.wasm', import.meta.url);
+  return new Shapespace(wasm ?? (await fetchModule(url)), start);
+}
