@@ -17,7 +17,7 @@ cp -r build/docs/html build/site-pages/reference
 grep -lr --include='class*.html' 'href="#nested-classes"' build/site-pages/reference |
   xargs grep -L 'name="nested-classes"' |
   xargs --no-run-if-empty sed -i '/href="#nested-classes"/d'
-mkdocs build --quiet --strict --site-dir "$out"
+mkdocs build --config-file docs/mkdocs.yml --quiet --strict --site-dir "$out"
 rm -f "$out"/sitemap.xml*  # of no use without an address
 tests/docs/links.py "$out"
 if grep -rlF "$project" "$out"; then die "the pages above name the folder of the build"; fi

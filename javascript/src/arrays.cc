@@ -16,8 +16,7 @@ namespace {
 bool IsMissing(const val& value) { return value.isUndefined() || value.isNull(); }
 
 std::vector<double> ToNumbers(const val& numbers, const std::string& name) {
-  if (!numbers.isArray() &&
-      !val::global("ArrayBuffer").call<bool>("isView", numbers)) {
+  if (!numbers.isArray() && !val::global("ArrayBuffer").call<bool>("isView", numbers)) {
     throw InvalidOptions(name, "must be an array of numbers");
   }
   return emscripten::convertJSArrayToNumberVector<double>(numbers);
@@ -38,8 +37,7 @@ class UploadedFiles {
 
   // Two files may have one name, but not one place.
   std::string Add(const std::string& name, const std::string& bytes) {
-    const std::filesystem::path folder =
-        std::filesystem::path(kFolder) / std::to_string(++count_);
+    const std::filesystem::path folder = std::filesystem::path(kFolder) / std::to_string(++count_);
     std::filesystem::create_directory(folder);
     const std::filesystem::path file = folder / std::filesystem::path(name).filename();
     std::ofstream(file, std::ios::binary) << bytes;
@@ -58,8 +56,9 @@ Soup ToSoup(const val& pose, const Eigen::Matrix3Xi& triangles, const std::strin
 
 Eigen::Matrix3Xi ToTriangles(const val& indices, const std::string& name) {
   if (IsMissing(indices)) {
-    throw InvalidOptions(name, "is missing: three indices of vertices for each triangle. A geometry "
-                               "without an index has every vertex several times: merge them first");
+    throw InvalidOptions(name,
+                         "is missing: three indices of vertices for each triangle. A geometry "
+                         "without an index has every vertex several times: merge them first");
   }
   const std::vector<int> corners = ToIntegers(indices, name);
   if (corners.size() % 3 != 0) {
@@ -130,8 +129,8 @@ val FromNumbers(const std::vector<double>& numbers) {
 val IndicesOf(const Connectivity& connectivity) {
   const Eigen::Matrix3Xi& triangles = connectivity.Triangles();
   return val::global("Uint32Array")
-      .new_(val(emscripten::typed_memory_view(static_cast<size_t>(triangles.size()),
-                                              triangles.data())));
+      .new_(val(
+          emscripten::typed_memory_view(static_cast<size_t>(triangles.size()), triangles.data())));
 }
 
 val FromStrings(const std::vector<std::string>& strings) {
@@ -160,7 +159,7 @@ val FromBytes(const std::string& bytes) {
 }
 
 std::string ToBytes(const val& bytes, const std::string& name) {
-  if (!bytes.instanceof(val::global("Uint8Array"))) {
+  if (!bytes.instanceof (val::global("Uint8Array"))) {
     throw InvalidOptions(name, "must be a Uint8Array");
   }
   const auto content = emscripten::convertJSArrayToNumberVector<std::uint8_t>(bytes);

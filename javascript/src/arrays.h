@@ -21,9 +21,9 @@ using emscripten::val;
 Shape ToShape(const val& positions, const std::string& name);
 std::vector<int> ToIntegers(const val& numbers, const std::string& name);
 
-/// Poses from an array of objects, which are files, {name, data: Uint8Array}, or arrays, {positions,
-/// indices}; indices may be left out but of the first.
-/// \throw as ReadPoses and MakePoses.
+/// Poses from an array of objects, which are files, {name, data: Uint8Array}, or arrays,
+/// {positions, indices}; indices may be left out but of the first. \throw as ReadPoses and
+/// MakePoses.
 Poses ToPoses(const val& poses, const ReadOptions& options);
 
 /// A Float64Array.

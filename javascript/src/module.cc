@@ -79,7 +79,7 @@ val ErrorOf(const std::string& kind, const Error& error) {
 
 // What `body` returns, or {error} if it throws.
 val Guarded(const std::function<val()>& body) {
-  val error;
+  val error = val::undefined();
   try {
     return body();
   } catch (const InvalidOptions& e) {
@@ -184,7 +184,7 @@ val TransferPath(const val& file, const val& target, const val& options, const v
 
 val AveragePoses(const val& given, val options, const val& on_progress) {
   const Poses poses = TakePoses(given, &options);
-  AverageOptions average = WithLimit<AverageOptions>();
+  AverageOptions average;
   Set(options, &average);
   Events progress(on_progress);
   const AverageResult result = Average(poses, average, &progress);
@@ -202,8 +202,8 @@ val WriteFiles(const val& file, const std::string& name, const val& options) {
   fs::create_directory(folder);
   PathOutputOptions output;
   Set(options, &output.gltf);
-  const PathOutputSummary summary = WritePathOutput(
-      PathOutput::Of((folder / name).string(), true), ToPath(file), output);
+  const PathOutputSummary summary =
+      WritePathOutput(PathOutput::Of((folder / name).string(), true), ToPath(file), output);
   std::set<fs::path> written;  // in the order of their names
   for (const auto& entry : fs::directory_iterator(folder)) written.insert(entry.path());
   val files = val::array(), result = val::object();
@@ -277,30 +277,36 @@ val MakeDeformer(val mesh, val options) {
 
 EMSCRIPTEN_BINDINGS(shapespace) {
   using emscripten::function;
-  function("read", +[](val poses, val options) {
-    return Guarded([&] { return ReadMeshes(poses, options); });
-  });
-  function("interpolate", +[](val poses, val options, val on_progress, val on_preview) {
-    return Guarded([&] { return InterpolatePoses(poses, options, on_progress, on_preview); });
-  });
-  function("extrapolate", +[](val path, int steps, val options, val on_progress) {
-    return Guarded([&] { return ExtrapolatePath(path, steps, options, on_progress); });
-  });
-  function("transfer", +[](val path, val target, val options, val on_progress) {
-    return Guarded([&] { return TransferPath(path, target, options, on_progress); });
-  });
-  function("average", +[](val poses, val options, val on_progress) {
-    return Guarded([&] { return AveragePoses(poses, options, on_progress); });
-  });
-  function("write", +[](val path, std::string name, val options) {
-    return Guarded([&] { return WriteFiles(path, name, options); });
-  });
+  function(
+      "read",
+      +[](val poses, val options) { return Guarded([&] { return ReadMeshes(poses, options); }); });
+  function(
+      "interpolate", +[](val poses, val options, val on_progress, val on_preview) {
+        return Guarded([&] { return InterpolatePoses(poses, options, on_progress, on_preview); });
+      });
+  function(
+      "extrapolate", +[](val path, int steps, val options, val on_progress) {
+        return Guarded([&] { return ExtrapolatePath(path, steps, options, on_progress); });
+      });
+  function(
+      "transfer", +[](val path, val target, val options, val on_progress) {
+        return Guarded([&] { return TransferPath(path, target, options, on_progress); });
+      });
+  function(
+      "average", +[](val poses, val options, val on_progress) {
+        return Guarded([&] { return AveragePoses(poses, options, on_progress); });
+      });
+  function(
+      "write", +[](val path, std::string name, val options) {
+        return Guarded([&] { return WriteFiles(path, name, options); });
+      });
   function("makeDeformer", &MakeDeformer);
   emscripten::class_<LiveDeformer>("LiveDeformer")
       .smart_ptr<std::shared_ptr<LiveDeformer>>("LiveDeformerPointer")
-      .function("update", +[](LiveDeformer& self, val handles, val on_progress) {
-        return Guarded([&] { return self.Update(handles, on_progress); });
-      });
+      .function(
+          "update", +[](LiveDeformer& self, val handles, val on_progress) {
+            return Guarded([&] { return self.Update(handles, on_progress); });
+          });
 }
 
 }  // namespace shapespace::javascript

@@ -22,7 +22,7 @@ diff <(tail -n +3 lib/shapespace/output/fonts/LICENSE) LICENSES/LicenseRef-DejaV
 
 benchmarks/all --page >/dev/null || fail "docs/measurements.md lacks what benchmarks/figures.toml names"
 tests/docs/citation.py || fail "CITATION.cff is not valid"
-yamllint --strict .github mkdocs.yml CITATION.cff || fail "yamllint found the above"
+yamllint --strict .github docs/mkdocs.yml CITATION.cff || fail "yamllint found the above"
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

@@ -1,6 +1,7 @@
 #!/bin/bash
-# The version of CMakeLists.txt is that of the add-on, of the viewer, of the citation and of the Debian
-# packages, and the number in the name of the Debian package of libraries is that of the libraries.
+# The version of CMakeLists.txt is that of the add-on, the viewer, the npm package, the citation and
+# the Debian packages, and the number in the name of the Debian package of libraries is that of the
+# libraries.
 set -euo pipefail
 cd "$1"
 version=$(sed -nE 's/^project\(ShapeSpace VERSION ([0-9.]+).*/\1/p' CMakeLists.txt)
@@ -15,6 +16,7 @@ expect() {
 expect blender/shapespace_addon/blender_manifest.toml "version = \"$version\""
 expect blender/shapespace_addon/__init__.py "\"version\": (${version//./, })"
 expect tools/viewer/package.json "\"version\": \"$version\""
+expect javascript/package.json "\"version\": \"$version\""
 expect CITATION.cff "version: $version"
 abi=$(sed -nE 's/^set\(abi ([0-9]+)\)$/\1/p' CMakeLists.txt)
 if [[ -z $abi ]] || ! grep -qx "Package: libshapespace$abi" debian/control; then

@@ -44,6 +44,39 @@ GeodesicOptions Options(int shapes, double tolerance) {
   return options;
 }
 
+// Each preview is a whole path, valid and nearer to the solution than the one before in the same
+// piece, and that there are previews changes nothing.
+TEST(Interpolate, PreviewsAreWholePathsThatBecomeFiner) {
+  const ShapeFamily bar = MakeBar(6, 1, 1, 32, 6, 6);
+  const std::vector<Shape> poses = {bar.pose(0), bar.pose(150), bar.pose(30)};
+  GeodesicOptions options = Options(7, 1e-5);
+  const GeodesicResult expected = Interpolate(bar.connectivity, poses, options);
+  ASSERT_GT(expected.summary.hierarchy.size(), 1u);
+  std::vector<std::vector<double>> energies;  // of both pieces, of each preview
+  options.preview = [&](const Path& so_far) {
+    so_far.Validate();
+    ASSERT_EQ(so_far.parameters, expected.path.parameters);
+    EXPECT_EQ(so_far.poses, expected.path.poses);
+    for (const int pose : so_far.poses) {
+      EXPECT_EQ(so_far.shapes[pose], expected.path.shapes[pose]);
+    }
+    const std::vector<double> lengths = SquaredLengths(so_far.metric, so_far.shapes);
+    const auto middle = lengths.begin() + so_far.poses[1];
+    energies.push_back({std::accumulate(lengths.begin(), middle, 0.0),
+                        std::accumulate(middle, lengths.end(), 0.0)});
+  };
+  const GeodesicResult result = Interpolate(bar.connectivity, poses, options);
+  EXPECT_EQ(result.path.shapes, expected.path.shapes);
+  ASSERT_GE(energies.size(), 4u);
+  for (size_t i = 1; i < energies.size(); ++i) {
+    for (int piece = 0; piece < 2; ++piece) {
+      EXPECT_LE(energies[i][piece], 1.001 * energies[i - 1][piece]) << i << ", piece " << piece;
+    }
+  }
+  // The first is better than the blend that the second piece begins as.
+  EXPECT_LT(energies.back()[1], 0.5 * energies.front()[1]);
+}
+
 // A vertex of no element, without a cost of position, has no cost however it moves.
 TEST(Interpolate, VerticesThatCostNothingMoveStraight) {
   const ShapeFamily bar = MakeBar(6, 1, 1, 24, 4, 4);

@@ -6,9 +6,7 @@ std::from_chars_result FromChars(const char* begin, const char* end, double* val
   return std::from_chars(begin, end, *value);
 }
 
-char* ToChars(char* begin, char* end, double value) {
-  return std::to_chars(begin, end, value).ptr;
-}
+char* ToChars(char* begin, char* end, double value) { return std::to_chars(begin, end, value).ptr; }
 
 char* ToChars(char* begin, char* end, float value) { return std::to_chars(begin, end, value).ptr; }
 
