@@ -4,10 +4,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <list>
+#include <ostream>
 
 #include <gflags/gflags.h>
 
 #include <shapespace/base/error.h>
+#include <shapespace/base/internal/atomic_file.h>
 #include <shapespace/base/internal/extension.h>
 #include <shapespace/base/internal/read_file.h>
 #include <shapespace/exploration/space_file.h>
@@ -26,7 +28,9 @@
 
 DEFINE_string(output, "", "the page to write: .html; default: the name of the file that it shows");
 DEFINE_bool(open, false, "show the page in the browser when it is written");
-FLAG_GROUP(view, "Page", "open, output");
+DEFINE_bool(solver, false,
+            "without FILE: a page that computes motions itself, of meshes that are dropped on it");
+FLAG_GROUP(view, "Page", "open, output, solver");
 
 namespace shapespace::tools {
 namespace {
@@ -57,6 +61,7 @@ void CheckKinds(const std::vector<std::string>& files) {
 // In the present folder if it is not given: walk.path becomes walk.html, and two files
 // a_and_b.html.
 std::string OutputFromFlag(const std::vector<std::string>& files) {
+  if (FLAGS_solver && !IsGiven("output")) return "shapespace.html";
   if (IsGiven("output")) {
     const std::string extension = internal::FileExtension(FLAGS_output);
     if (extension == ".html" || extension == ".htm") return FLAGS_output;
@@ -104,7 +109,26 @@ void CheckIsGlb(const std::string& file, const std::string& bytes) {
   }
 }
 
+void TellWritten(const std::string& output) {
+  Out() << "wrote " << output << (FLAGS_open ? "" : "; open it in a browser, or give --open")
+        << '\n';
+  if (FLAGS_open) OpenPage(output);
+}
+
+void WriteSolver(const std::string& output) {
+  CheckCanBeWritten(output);
+  CheckHasSolver();
+  internal::WriteFileAtomically(output, [](std::ostream& out) { out << SolverPage(); });
+  TellWritten(output);
+}
+
 void Run(const std::vector<std::string>& files) {
+  if (FLAGS_solver) {
+    if (!files.empty()) {
+      throw UsageError("--solver: meshes are dropped on the page, and not named here");
+    }
+    return WriteSolver(OutputFromFlag(files));
+  }
   CheckKinds(files);
   const std::string output = OutputFromFlag(files);
   const PageView view = ViewFromFlags();
@@ -130,9 +154,7 @@ void Run(const std::vector<std::string>& files) {
   std::vector<std::string> warnings;
   WritePage(output, std::string(ViewerPage()), scenes, view, &warnings);
   for (const std::string& warning : warnings) Warn(output, ": ", warning);
-  Out() << "wrote " << output << (FLAGS_open ? "" : "; open it in a browser, or give --open")
-        << '\n';
-  if (FLAGS_open) OpenPage(output);
+  TellWritten(output);
 }
 
 }  // namespace
@@ -148,6 +170,7 @@ int main(int argc, char** argv) {
   shape-view before.path after.path --output compare.html   side by side
   shape-view walk.glb --output walk.html
   shape-view poses.space --output poses.html                shapes at points of a plane
+  shape-view --solver                                       a page that computes motions itself
   shape-view cat.obj --up -x                                pick handles and selections
   shape-view cat.obj lion.obj --output markers.html         pick markers on both)",
        {"view", "camera", "outside_files"}},

@@ -83,7 +83,7 @@ TEST_F(HelpTest, ListsOurFlagsOnly) {
                              "random", "seed", "table", "threads", "triangles", "version"}));
   EXPECT_EQ(Listed("shape-view"),
             (std::set<std::string>{"allow_outside_files", "help", "help-all", "open", "output",
-                                   "progress", "threads", "up", "version", "view"}));
+                                   "progress", "solver", "threads", "up", "version", "view"}));
   EXPECT_EQ(
       Listed("shape-correspond"),
       (std::set<std::string>{"allow_nonmanifold", "allow_outside_files", "find_markers", "help",

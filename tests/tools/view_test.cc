@@ -57,6 +57,20 @@ TEST_F(ViewTest, MakesPagesOfPathsAndGlbs) {
   EXPECT_EQ(elements[1].bytes, Content(Path("walk.glb")));
 }
 
+TEST_F(ViewTest, WritesThePageThatComputesMotions) {
+  ExpectRefusal(2, {"--solver", "walk.path"}, "--solver");
+  const Outcome outcome = Run("shape-view", {"--solver", "--output", "sub/solver.html"});
+  if (outcome.code != 0) {
+    ExpectContains(outcome.err, "./dev wasm");
+    EXPECT_FALSE(std::filesystem::exists(Path("sub/solver.html")));
+    return;
+  }
+  const std::string page = Content(Path("sub/solver.html"));
+  ExpectContains(page, "</html>");
+  ExpectContains(page, "solver-module");
+  EXPECT_LT(page.size(), 3u << 20);
+}
+
 TEST_F(ViewTest, EveryToolThatWritesAPathWritesItsPage) {
   MakeWalk();
   if (!HasPage()) {

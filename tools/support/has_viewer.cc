@@ -11,4 +11,11 @@ void CheckHasViewer() {
       "which needs npm, and then ./dev build");
 }
 
+void CheckHasSolver() {
+  if (!SolverPage().empty()) return;
+  throw Error(
+      "this program was built without the page that computes motions. In the source folder, run "
+      "./dev wasm, which needs npm and network, and then ./dev build");
+}
+
 }  // namespace shapespace::tools

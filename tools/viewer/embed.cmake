@@ -1,5 +1,6 @@
-# Makes SOURCE, a C++ file that holds the text of PAGE; an empty one where there is no such file.
-# cmake -DPAGE=... -DSOURCE=... -P embed.cmake
+# Makes SOURCE, a C++ file in which FUNCTION returns the text of PAGE; an empty one where there is no such
+# file.
+# cmake -DPAGE=... -DFUNCTION=... -DSOURCE=... -P embed.cmake
 set(page "")
 if(EXISTS "${PAGE}")
   file(READ "${PAGE}" page)
@@ -8,7 +9,7 @@ file(WRITE "${SOURCE}.new" "#include \"viewer/page.h\"
 
 namespace shapespace::tools {
 
-std::string_view ViewerPage() {
+std::string_view ${FUNCTION}() {
   return R\"~page~(${page})~page~\";
 }
 

@@ -9,8 +9,12 @@ namespace shapespace::tools {
 /// none.
 std::string_view ViewerPage();
 
+/// The page that computes motions itself, as `./dev wasm` has built it, likewise.
+std::string_view SolverPage();
+
 /// \throw Error, which says what to do, if there was none.
 void CheckHasViewer();
+void CheckHasSolver();
 
 }  // namespace shapespace::tools
 
