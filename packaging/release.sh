@@ -28,8 +28,10 @@ packaging/source.sh "$out"
 step "add-on"
 packaging/addon.sh "$out"
 
-step "the page of shape-view"
-./dev viewer
+step "for browsers: npm package and pages"
+./dev wasm
+packaging/npm.sh "$out"
+cp tools/viewer/dist/solver.html "$out/shapespace-$version.html"
 
 step "wheels, source distribution"
 packaging/wheel.sh bookworm "$out"

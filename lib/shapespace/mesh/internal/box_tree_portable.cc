@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
+#include <utility>
 #include <vector>
 
 #include <unsupported/Eigen/BVH>
@@ -13,41 +15,37 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 using Box = Eigen::AlignedBox<double, 3>;
 
-struct Element {
-  int index;
-  Box box;
-};
-
-Box bounding_box(const Element& element) { return element.box; }  // as Eigen calls it
-
 // Eigen asks for lower bounds of boxes, and opens those first that have the smallest.
 struct NearQuery {
   using Scalar = double;
+  const std::vector<Box>& boxes;
   const Eigen::Vector3d& point;
   double within;
   const std::function<double(int)>& visit;
 
-  // Just below the squared distance, so that also what is equally near is visited.
+  // Just below the squared distance, which is rounded, so that also what is equally near, or
+  // exactly as far as `within`, is visited.
   double minimumOnVolume(const Box& box) const {
-    const double square = box.squaredExteriorDistance(point);
+    const double square = box.squaredExteriorDistance(point) * (1 - 1e-12);
     if (square == 0) return -1;
-    return square <= within * within ? square * (1 - 1e-12) : kInfinity;
+    return square <= within * within ? square : kInfinity;
   }
-  double minimumOnObject(const Element& element) {
-    if (minimumOnVolume(element.box) == kInfinity) return kInfinity;
-    within = std::min(within, visit(element.index));
+  double minimumOnObject(int element) {
+    if (minimumOnVolume(boxes[element]) == kInfinity) return kInfinity;
+    within = std::min(within, visit(element));
     return within * within;
   }
 };
 
 struct PairsQuery {
+  const std::vector<Box>& boxes;
   const std::function<void(int, int)>& visit;
 
   bool intersectVolumeVolume(const Box& a, const Box& b) const { return a.intersects(b); }
-  bool intersectVolumeObject(const Box& a, const Element& b) const { return a.intersects(b.box); }
-  bool intersectObjectVolume(const Element& a, const Box& b) const { return a.box.intersects(b); }
-  bool intersectObjectObject(const Element& a, const Element& b) const {
-    if (a.index < b.index && a.box.intersects(b.box)) visit(a.index, b.index);
+  bool intersectVolumeObject(const Box& a, int b) const { return a.intersects(boxes[b]); }
+  bool intersectObjectVolume(int a, const Box& b) const { return b.intersects(boxes[a]); }
+  bool intersectObjectObject(int a, int b) const {
+    if (a < b && boxes[a].intersects(boxes[b])) visit(a, b);
     return false;
   }
 };
@@ -55,30 +53,34 @@ struct PairsQuery {
 }  // namespace
 
 struct BoxTree::Tree {
-  Eigen::KdBVH<double, 3, Element> boxes;
+  std::vector<Box> boxes;  // of the elements
+  Eigen::KdBVH<double, 3, int> hierarchy;
 };
 
 BoxTree::BoxTree(const Eigen::Matrix3Xd& low, const Eigen::Matrix3Xd& high) {
   // Distances to boxes round; they are smaller by more than that.
   const double margin = 1e-15 * std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff());
-  std::vector<Element> elements;
-  elements.reserve(low.cols());
-  for (int i = 0; i < low.cols(); ++i)
-    elements.push_back({i, Box(low.col(i).array() - margin, high.col(i).array() + margin)});
-  tree_ = std::make_unique<const Tree>(Tree{{elements.begin(), elements.end()}});
+  auto tree = std::make_unique<Tree>();
+  for (int i = 0; i < low.cols(); ++i) {
+    tree->boxes.emplace_back(low.col(i).array() - margin, high.col(i).array() + margin);
+  }
+  std::vector<int> elements(tree->boxes.size());
+  std::iota(elements.begin(), elements.end(), 0);
+  tree->hierarchy.init(elements.begin(), elements.end(), tree->boxes.begin(), tree->boxes.end());
+  tree_ = std::move(tree);
 }
 
 BoxTree::~BoxTree() = default;
 
 void BoxTree::VisitNear(const Eigen::Vector3d& point, double within,
                         const std::function<double(int element)>& visit) const {
-  NearQuery query{point, within, visit};
-  Eigen::BVMinimize(tree_->boxes, query);
+  NearQuery query{tree_->boxes, point, within, visit};
+  Eigen::BVMinimize(tree_->hierarchy, query);
 }
 
 void BoxTree::VisitPairs(const std::function<void(int first, int second)>& visit) const {
-  PairsQuery query{visit};
-  Eigen::BVIntersect(tree_->boxes, tree_->boxes, query);
+  PairsQuery query{tree_->boxes, visit};
+  Eigen::BVIntersect(tree_->hierarchy, tree_->hierarchy, query);
 }
 
 }  // namespace shapespace::internal
