@@ -21,11 +21,11 @@ import {
 import { declarations } from './blend_shader';
 import { Marks } from './marks';
 import { isFaceted, vertexNormals } from './normals';
+import { back, clay } from './material';
 import { markColour, rampColour, type Triple } from './ramp';
 import type { Body, Skin } from './scene_data';
+import type { Shown } from './stage';
 
-const clay = new Color(0xbfae9a);
-const back = new Color(0xd9822b);
 
 function rampTexture(colourOf: (value: number) => Triple): DataTexture {
   const pixels = new Uint8Array(4 * 256);
@@ -57,7 +57,7 @@ export interface Blend {
  *
  * The body is scaled to the cube of side 1 with its lowest corner in the origin.
  */
-export class BlendedMesh extends Group {
+export class BlendedMesh extends Group implements Shown {
   private readonly geometry = new BufferGeometry();
   private readonly positions: BufferAttribute[] = [];
   private readonly normals: BufferAttribute[] = [];
@@ -167,6 +167,19 @@ export class BlendedMesh extends Group {
       this.add(this.marks);
     }
     this.marks.show(colours);
+  }
+
+  someVertices(most: number): Vector3[] {
+    const { shapes, vertices } = this.body;
+    const points: Vector3[] = [];
+    const step = Math.max(1, Math.floor((shapes.length * vertices) / most));
+    for (const shape of shapes) {
+      for (let v = 0; v < vertices; v += step) {
+        const point = new Vector3(shape[4 * v], shape[4 * v + 1], shape[4 * v + 2]);
+        points.push(point.divideScalar(65535));
+      }
+    }
+    return points;
   }
 
   /** The vertices' positions as they are shown, in the unit cube: three numbers for each. */

@@ -8,6 +8,8 @@ export interface Explanation {
   /** Whether the page plays a motion, and whether it has a plane: both have keys of their own. */
   plays: boolean;
   hasPlane: boolean;
+  /** Whether the body can be pulled with the mouse. */
+  pulls?: boolean;
 }
 
 const view =
@@ -83,4 +85,28 @@ export const ofMarkers: Explanation = {
   ],
   plays: false,
   hasPlane: false,
+};
+
+export const ofSolver: Explanation = {
+  hint: 'Drag the picture to turn the body; Pull lets you make another pose of it.',
+  deeds: [
+    'Drop two or more poses of one mesh: files with the same triangles, whose vertices have moved. ' +
+      'The motion between them is computed here and plays as soon as there is a first version, ' +
+      'which then becomes finer.',
+    'A file with another mesh is refused with a sentence that says what differs. Export all poses ' +
+      'from one mesh, with its vertices in one order.',
+    'Poses are passed in the order of the list. Other options start the computation again.',
+    'The metric says what a motion costs. By strain: as elastic material would move. Isometric: ' +
+      'lengths on the surface are kept first of all. Rigid: parts move as if they were solid.',
+    'Pull: click the body to set pins, and drag one of them. The rest follows, and what is pinned ' +
+      'elsewhere stays. Keep as a pose adds the result to the list, so that one mesh is enough to begin.',
+    'Play, or drag the slider, to see the motion. On the slider blue marks are the poses, green is ' +
+      'what was put in between, and violet what goes beyond the last pose.',
+    view,
+    'Save writes the motion as an animated glb, its shapes as a zip of OBJ files, or all of it as a ' +
+      '.path file for the other programs of shapespace.',
+  ],
+  plays: true,
+  hasPlane: false,
+  pulls: true,
 };

@@ -35,8 +35,10 @@ export class Ground extends Group {
   /** Above, without light of its own: what it does not reach is in the shadow. */
   private readonly light = new DirectionalLight(0xffffff, 0);
 
-  /** The points are some of the body's in all of its shapes. */
-  constructor(private readonly points: Vector3[]) {
+  /** Some of the body's points in all of its shapes. */
+  points: Vector3[] = [];
+
+  constructor() {
     super();
     const shape = disc();
     for (const material of [this.floor, this.shade]) {

@@ -3,7 +3,7 @@ import { byId } from './dom';
 import type { Explanation } from './explanations';
 import { onKey } from './keys';
 
-function keysOf({ plays, hasPlane }: Explanation): [string, string][] {
+function keysOf({ plays, hasPlane, pulls }: Explanation): [string, string][] {
   const playing: [string, string][] = [
     ['Space', 'play or stop'],
     ['\u2190 \u2192 on the slider', 'a hundredth of the motion; with Shift a thousandth'],
@@ -12,9 +12,16 @@ function keysOf({ plays, hasPlane }: Explanation): [string, string][] {
     ['Arrows on the blue point', 'move it; with Shift by less'],
     ['Enter on the blue point', 'add it to the curve'],
   ];
+  const pulling: [string, string][] = [
+    ['P', 'pull the body, or stop pulling'],
+    ['Enter on the picture', 'while pulling: a pin in the middle of the picture'],
+    ['Shift and arrows on the picture', 'while pulling: pull the last pin'],
+    ['Delete', 'while pulling: remove the last pin'],
+  ];
   return [
     ...(plays ? playing : []),
     ...(hasPlane ? plane : []),
+    ...(pulls ? pulling : []),
     ['Arrows on the picture', 'turn'],
     ['+ and \u2212 on the picture', 'nearer, farther'],
     ['Home on the picture', 'show all, as at first'],
@@ -43,6 +50,11 @@ function row([key, what]: [string, string]): HTMLTableRowElement {
 
 /** `facts` say what is shown. */
 export function explain(explanation: Explanation, facts: string): void {
+  startHelp(explanation, facts);
+  showHint(explanation.hint);
+}
+
+export function startHelp(explanation: Explanation, facts: string): void {
   byId('help-deeds').replaceChildren(...explanation.deeds.map(item));
   byId('help-keys').replaceChildren(...keysOf(explanation).map(row));
   byId('help-facts').textContent = facts;
@@ -52,9 +64,12 @@ export function explain(explanation: Explanation, facts: string): void {
   };
   byId('help-open').addEventListener('click', open);
   onKey('?', open);
+}
 
+/** Shows a sentence until the page is touched. */
+export function showHint(text: string): void {
   const hint = byId('hint');
-  hint.textContent = explanation.hint;
+  hint.textContent = text;
   const touched = new AbortController();
   const remove = () => {
     hint.remove();

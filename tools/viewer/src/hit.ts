@@ -4,7 +4,7 @@ import type { Body } from './scene_data';
 
 /** Of the first triangle on the ray, the corner nearest to where the ray meets it; null if none. */
 export function vertexOnRay(
-  { triangles }: Body,
+  { triangles }: Pick<Body, 'triangles'>,
   positions: Float32Array,
   origin: Vector3,
   direction: Vector3,

@@ -36,7 +36,7 @@ export function showMeshes(scenes: MeshScene[]): void {
     () => {},
     () => {},
   );
-  startOptions(stage, meshes, still, names.map(stem).join('-'));
+  startOptions(stage, meshes, still, () => names.map(stem).join('-'));
   // A click finds a triangle, which graphs do not have.
   if (scenes.every(({ triangles }) => triangles.length > 0)) {
     const files = scenes.map(({ file, name }) => file || name);

@@ -141,7 +141,7 @@ export function showModes(scene: ModesScene): void {
     go(scene.shares.map(() => 0));
   });
   startCopy(command, byId('copy'));
-  startOptions(stage, [mesh], player, stem(scene.name));
+  startOptions(stage, [mesh], player, () => stem(scene.name));
   go(coordinates);
   explain(ofModes, `${facts(scene)}.`);
 }

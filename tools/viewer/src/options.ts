@@ -5,6 +5,7 @@ import { startFullScreen } from './full_screen';
 import { onKey } from './keys';
 import type { Player } from './player';
 import { canFilm, saveFilm, savePicture } from './record';
+import type { Body } from './scene_data';
 import type { Stage } from './stage';
 
 export function box(id: string, checked: boolean, onChange: (on: boolean) => void): void {
@@ -16,12 +17,19 @@ export function box(id: string, checked: boolean, onChange: (on: boolean) => voi
 /** An even part of a right angle. */
 const rollDegrees = 15;
 
-/** File names begin with `name`. `mayFilm` returns why no film can be made, or null if one can. */
+/** What can be chosen of how a body is drawn. */
+export interface Drawn {
+  readonly body: Pick<Body, 'triangles'>;
+  wireframe: boolean;
+  flat: boolean;
+}
+
+/** File names begin with what `name` returns. `mayFilm` returns why no film can be made, or null if one can. */
 export function startOptions(
   stage: Stage,
-  meshes: BlendedMesh[],
+  meshes: Drawn[],
   player: Player,
-  name: string,
+  name: () => string,
   mayFilm: () => string | null = () => null,
 ): void {
   box('wireframe', false, (on) => {
@@ -47,7 +55,7 @@ export function startOptions(
   onKey('r', roll(1));
   startFullScreen();
   byId('picture').addEventListener('click', () => {
-    savePicture(stage, `${name}.png`).then(
+    savePicture(stage, `${name()}.png`).then(
       () => tell('The picture is saved.'),
       (error: Error) => tell(`No picture: ${error.message}.`),
     );
@@ -58,7 +66,7 @@ export function startOptions(
     if (missing) return tell(`No film: ${missing}.`);
     film.disabled = true;
     tell('Recording, from the start to the end\u2026');
-    saveFilm(stage, player, name)
+    saveFilm(stage, player, name())
       .then(
         () => tell('The film is saved.'),
         (error: Error) => tell(`No film: ${error.message}.`),

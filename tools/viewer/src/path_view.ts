@@ -214,7 +214,7 @@ export function showPaths(scenes: PathScene[]): void {
     player.seek(place);
   });
   markPoses(scenes);
-  startOptions(stage, meshes, player, names.map(stem).join('-'));
+  startOptions(stage, meshes, player, () => names.map(stem).join('-'));
   offerGhosts(scenes, meshes, stage);
   // A glb has no poses, and its vertices are not those of the mesh it was made of; a click finds a
   // triangle, which graphs do not have.

@@ -2,12 +2,15 @@
 import type { Blend } from './blended_mesh';
 import type { PathScene } from './scene_data';
 
-export function timeAt({ parameters }: PathScene, place: number): number {
+/** When a motion has its shapes, and which of these are poses. */
+export type Timeline = Pick<PathScene, 'parameters' | 'poses' | 'poseNames' | 'extrapolated'>;
+
+export function timeAt({ parameters }: Timeline, place: number): number {
   const first = parameters[0];
   return first + place * (parameters[parameters.length - 1] - first);
 }
 
-export function placeOf({ parameters }: PathScene, shape: number): number {
+export function placeOf({ parameters }: Timeline, shape: number): number {
   const length = parameters[parameters.length - 1] - parameters[0];
   return length > 0 ? (parameters[shape] - parameters[0]) / length : 0;
 }
@@ -25,7 +28,7 @@ export function blendAt(scene: PathScene, place: number): Blend {
 }
 
 /** Between which poses a place is, by their names, or by their numbers from 1. */
-export function whereabouts(scene: PathScene, place: number): string {
+export function whereabouts(scene: Timeline, place: number): string {
   const { poses, poseNames } = scene;
   const perCent = (share: number) => `${Math.round(100 * share)}\u2009%`;
   if (poses.length < 2) return perCent(place);

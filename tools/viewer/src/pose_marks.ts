@@ -1,7 +1,6 @@
 // What of a motion was given, on the slider, in the colours of film strips.
 import { byId } from './dom';
-import { placeOf } from './place';
-import type { PathScene } from './scene_data';
+import { placeOf, type Timeline } from './place';
 
 function part(kind: string, from: number, to: number): HTMLSpanElement {
   const span = document.createElement('span');
@@ -12,9 +11,9 @@ function part(kind: string, from: number, to: number): HTMLSpanElement {
 }
 
 /** A strip: green between the poses, violet beyond them, and a blue mark at every pose. */
-function strip(scene: PathScene): HTMLDivElement {
-  const { shapes, poses, poseNames, extrapolated } = scene;
-  const end = placeOf(scene, shapes.length - 1 - extrapolated);
+function strip(scene: Timeline): HTMLDivElement {
+  const { parameters, poses, poseNames, extrapolated } = scene;
+  const end = placeOf(scene, parameters.length - 1 - extrapolated);
   const marks = poses.map((shape, pose) => {
     const mark = part('pose', placeOf(scene, shape), placeOf(scene, shape));
     mark.title = poseNames[pose] ?? '';
@@ -26,7 +25,7 @@ function strip(scene: PathScene): HTMLDivElement {
 }
 
 /** One strip for each path that has poses and moves. */
-export function markPoses(scenes: PathScene[]): void {
-  const moving = scenes.filter(({ shapes, poses }) => shapes.length > 1 && poses.length > 0);
+export function markPoses(scenes: Timeline[]): void {
+  const moving = scenes.filter(({ parameters, poses }) => parameters.length > 1 && poses.length > 0);
   byId('marks').replaceChildren(...moving.map(strip));
 }

@@ -155,7 +155,7 @@ export function showSpace(scene: SpaceScene): void {
       (error: Error) => tell(`No glb: ${error.message}.`),
     );
   });
-  startOptions(stage, [mesh], player, stem(scene.name), () =>
+  startOptions(stage, [mesh], player, () => stem(scene.name), () =>
     curve.isEmpty ? 'draw a curve first' : null,
   );
   player.seek(0);

@@ -1,9 +1,11 @@
 // Draws bodies on one canvas with one camera. Each body has a part of the canvas.
 import {
+  Box3,
   Color,
   DirectionalLight,
   Group,
   HemisphereLight,
+  type Object3D,
   PerspectiveCamera,
   Scene,
   Quaternion,
@@ -15,8 +17,8 @@ import {
   WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
-import type { BlendedMesh } from './blended_mesh';
 import { Ground } from './ground';
+import type { Body } from './scene_data';
 
 const fieldOfView = 30;
 const margin = 1.06;
@@ -27,29 +29,19 @@ const turnsAMinute = 3;
 /** The number of vertices from which the distance of the camera is computed. */
 const mostSamples = 20000;
 
+/** What a stage shows, in its unit cube. */
+export interface Shown extends Object3D {
+  readonly body: Pick<Body, 'up' | 'eye' | 'side'>;
+  /** Vertices of all of its shapes, some `most` of them at the most. */
+  someVertices(most: number): Vector3[];
+}
+
 interface Cell {
   scene: Scene;
   lights: Group;
   sky: HemisphereLight;
   ground: Ground;
-  mesh: BlendedMesh;
-}
-
-/** Some vertices of all shapes, in the unit cube, and the middle of the box around them. */
-function sample({ body }: BlendedMesh): { points: Vector3[]; centre: Vector3 } {
-  const points: Vector3[] = [];
-  const step = Math.max(1, Math.floor((body.shapes.length * body.vertices) / mostSamples));
-  const low = new Vector3(1, 1, 1);
-  const high = new Vector3(0, 0, 0);
-  for (const shape of body.shapes) {
-    for (let v = 0; v < body.vertices; v += step) {
-      const point = new Vector3(shape[4 * v], shape[4 * v + 1], shape[4 * v + 2]);
-      points.push(point.divideScalar(65535));
-      low.min(point);
-      high.max(point);
-    }
-  }
-  return { points, centre: low.add(high).multiplyScalar(0.5) };
+  mesh: Shown;
 }
 
 export class Stage {
@@ -57,9 +49,9 @@ export class Stage {
   private readonly camera = new PerspectiveCamera(fieldOfView, 1, 0.01, 100);
   private controls: OrbitControls;
   private readonly cells: Cell[] = [];
-  private readonly samples: Vector3[] = [];
-  private readonly eye: Vector3;
-  private readonly up: Vector3; // at first; that of the camera when the user has rolled it
+  private samples: Vector3[] = [];
+  private readonly eye = new Vector3();
+  private readonly up = new Vector3(); // at first; that of the camera when the user has rolled it
   private moved = false; // by the user: then resizing leaves the camera alone
   private background = new Color();
   private wanted = false;
@@ -70,37 +62,45 @@ export class Stage {
   /** `advance` is called with the seconds that have passed, and returns whether to draw again. */
   constructor(
     readonly canvas: HTMLCanvasElement,
-    meshes: BlendedMesh[],
+    meshes: Shown[],
     private readonly advance: (seconds: number) => boolean,
   ) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
     this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
     this.renderer.setScissorTest(true);
     this.renderer.setClearAlpha(0);
-    const [{ body }] = meshes;
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = VSMShadowMap;
-    this.up = new Vector3().fromArray(body.up);
-    this.eye = new Vector3().fromArray(body.eye).normalize();
-    const sides = meshes.map((mesh) => mesh.body.side || 1);
-    const largest = Math.max(...sides);
-    for (const mesh of meshes) {
-      const alike = largest <= largestRatio * Math.min(...sides);
-      const scale = alike ? (mesh.body.side || 1) / largest : 1;
-      const { points, centre } = sample(mesh);
-      for (const point of points) point.sub(centre).multiplyScalar(scale);
-      this.samples.push(...points);
-      mesh.scale.setScalar(scale);
-      mesh.position.copy(centre).multiplyScalar(-scale);
-      this.cells.push(this.cell(mesh, points));
-    }
+    for (const mesh of meshes) this.cells.push(this.cell(mesh));
     this.controls = this.newControls();
     canvas.addEventListener('keydown', (event) => this.onKey(event));
     new ResizeObserver(() => {
       this.resize();
       this.drawNow(); // a canvas of another size is empty
     }).observe(canvas.parentElement!);
+    this.place();
+  }
+
+  /** Puts the bodies into their parts of the canvas, by their size and all of their shapes. */
+  place(): void {
+    const [{ body }] = this.cells.map(({ mesh }) => mesh);
+    this.up.fromArray(body.up);
+    this.eye.fromArray(body.eye).normalize();
+    const sides = this.cells.map(({ mesh }) => mesh.body.side || 1);
+    const largest = Math.max(...sides);
+    for (const { mesh } of this.cells) {
+      const alike = largest <= largestRatio * Math.min(...sides);
+      const scale = alike ? (mesh.body.side || 1) / largest : 1;
+      const centre = new Box3().setFromPoints(mesh.someVertices(mostSamples)).getCenter(new Vector3());
+      mesh.scale.setScalar(scale);
+      mesh.position.copy(centre).multiplyScalar(-scale);
+    }
     this.showAll();
+  }
+
+  /** Looks at all shapes again, after some of these are others, unless the user chose the view. */
+  refit(): void {
+    if (!this.moved) this.showAll();
   }
 
   setBackground(colour: string): void {
@@ -210,6 +210,12 @@ export class Stage {
   /** Looks from the first direction again, at all of every shape. */
   showAll(): void {
     this.moved = false;
+    this.samples = this.cells.flatMap(({ mesh, ground }) => {
+      const points = mesh.someVertices(mostSamples);
+      for (const point of points) point.multiplyScalar(mesh.scale.x).add(mesh.position);
+      ground.points = points;
+      return points;
+    });
     this.setUp(this.up);
     this.resize();
   }
@@ -258,7 +264,7 @@ export class Stage {
     }
   }
 
-  private cell(mesh: BlendedMesh, points: Vector3[]): Cell {
+  private cell(mesh: Shown): Cell {
     const scene = new Scene();
     const lights = new Group();
     const key = new DirectionalLight(0xffffff, 2.0);
@@ -266,7 +272,7 @@ export class Stage {
     const fill = new DirectionalLight(0xdfe8ff, 0.7);
     fill.position.set(1, 0.1, 0.6);
     const sky = new HemisphereLight(0xffffff, 0x8a8f99, 1.1);
-    const ground = new Ground(points);
+    const ground = new Ground();
     lights.add(key, key.target, fill, fill.target);
     scene.add(mesh, lights, sky, ground);
     return { scene, lights, sky, ground, mesh };
