@@ -1,7 +1,9 @@
 import type { Body } from './scene_data';
 
+type Surface = Pick<Body, 'vertices' | 'triangles'>;
+
 /** Sums of triangles' normals at every vertex, weighted by area; three numbers for each vertex. */
-function sums(body: Body, shape: Uint16Array): Float32Array {
+function sums(body: Surface, shape: Uint16Array): Float32Array {
   const normals = new Float32Array(3 * body.vertices);
   const { triangles } = body;
   for (let i = 0; i < triangles.length; i += 3) {
@@ -28,7 +30,7 @@ function sums(body: Body, shape: Uint16Array): Float32Array {
 }
 
 /** Unit normals for smooth shading, times 127; four bytes for each vertex, which GPUs need. */
-export function vertexNormals(body: Body, shape: Uint16Array): Int8Array {
+export function vertexNormals(body: Surface, shape: Uint16Array): Int8Array {
   const from = sums(body, shape);
   const normals = new Int8Array(4 * body.vertices);
   for (let v = 0; v < body.vertices; ++v) {
@@ -45,7 +47,7 @@ export function vertexNormals(body: Body, shape: Uint16Array): Int8Array {
  * Whether a shape should be shaded flat, as polyhedra and folded paper should. It should if at
  * vertices a large part of the triangles' normals, weighted by area, cancels out in the sum.
  */
-export function isFaceted(body: Body, shape: Uint16Array): boolean {
+export function isFaceted(body: Surface, shape: Uint16Array): boolean {
   const from = sums(body, shape);
   const { triangles } = body;
   let together = 0;

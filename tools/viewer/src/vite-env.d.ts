@@ -1,1 +1,6 @@
 declare module '*.css';
+
+declare module '*?worker&inline' {
+  const InlineWorker: new () => Worker;
+  export default InlineWorker;
+}

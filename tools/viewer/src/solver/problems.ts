@@ -1,0 +1,64 @@
+// Sentences about what went wrong, over the picture until they are closed.
+import { byId } from '../dom';
+import { ShapespaceError, type MeshOptions } from './library';
+import { withoutFolder } from './pose_set';
+
+export interface Remedy {
+  text: string;
+  act: () => void;
+}
+
+/** What is meant for programs, in the words of this page. */
+const words: [RegExp, string][] = [
+  [/\. If the pose is right, say so by allow_mismatch/g, ''],
+  [/\. If it was turned over on purpose, say so by allow_mirrored/g, ''],
+  [/;? ?or (?:raise|a higher) memory_limit/g, ''],
+  [/, or have one coordinate flipped/g, ''],
+];
+
+/** A sentence of the library, or of the browser, as it is shown. */
+export function sentenceOf(error: Error): string {
+  if (!(error instanceof ShapespaceError)) return `That has failed: ${error.message}.`;
+  const text = words.reduce((so, [from, to]) => so.replace(from, to), withoutFolder(error.message));
+  return /[.!?]$/.test(text) ? text : `${text}.`;
+}
+
+/** What can be answered to a refusal: options of meshes, and the words on the button. */
+export function answerTo(error: Error): { text: string; options: MeshOptions } | null {
+  if (!(error instanceof ShapespaceError)) return null;
+  switch (error.option) {
+    case 'mirror':
+      return { text: 'Mirror it back', options: { mirror: 'x' } };
+    case 'allowMismatch':
+      return { text: 'It is right, use it', options: { allowMismatch: true } };
+    case 'allowNonmanifold':
+      return { text: 'Use it as it is', options: { allowNonmanifold: true } };
+    default:
+      return null;
+  }
+}
+
+/** Shows sentences instead of those before; with none, nothing. */
+export function showProblems(sentences: string[], remedies: Remedy[] = []): void {
+  byId('problems').hidden = sentences.length === 0;
+  byId('problem-text').replaceChildren(
+    ...sentences.map((sentence) => {
+      const paragraph = document.createElement('p');
+      paragraph.textContent = sentence;
+      return paragraph;
+    }),
+  );
+  const close = { text: 'Close', act: () => {} };
+  byId('problem-buttons').replaceChildren(
+    ...[...remedies, close].map(({ text, act }) => {
+      const button = document.createElement('button');
+      button.type = 'button';
+      button.textContent = text;
+      button.addEventListener('click', () => {
+        showProblems([]);
+        act();
+      });
+      return button;
+    }),
+  );
+}
