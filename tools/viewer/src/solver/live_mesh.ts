@@ -165,6 +165,14 @@ export class LiveMesh extends Group implements Shown {
     return points;
   }
 
+  /** Polygons are cut by the shapes of all poses, so others may cut them along other diagonals. */
+  set triangles(indices: Uint32Array) {
+    const now = this.body.triangles;
+    if (indices.length === now.length && indices.every((v, i) => v === now[i])) return;
+    this.body.triangles = indices;
+    this.geometry.setIndex(new BufferAttribute(indices, 1));
+  }
+
   set wireframe(on: boolean) {
     this.wires.visible = on;
     this.surface.material.polygonOffset = on; // so that the surface does not hide its edges
