@@ -1,87 +1,77 @@
 // Poses of a bar, made here, for who has no files at hand.
 
-const around = 32;
-const along = 56;
+const around = 40;
+const along = 52;
 const halfWidth = 0.5;
-const height = 5;
+const length = 6;
+/** How far from its ends the bar becomes thinner. */
+const rounding = 0.3;
 
 export interface Example {
   indices: Uint32Array<ArrayBuffer>;
   poses: { name: string; positions: Float64Array }[];
 }
 
-/** Where a point of the bar is: `x` and `z` across it, `y` along it, from 0 to `height`. */
+/** Where a point of the bar is: `x` along it, from the middle; `y` and `z` across it. */
 type Pose = (x: number, y: number, z: number) => [number, number, number];
 
-/** Along an arc that turns by `angle` in all. */
+const straight: Pose = (x, y, z) => [x, y, z];
+
+/** As an arch that turns by `angle` in all. */
 const bent =
   (angle: number): Pose =>
   (x, y, z) => {
-    const radius = height / angle;
-    const turned = y / radius;
-    return [radius - (radius - x) * Math.cos(turned), (radius - x) * Math.sin(turned), z];
+    const radius = length / angle;
+    const turned = x / radius;
+    return [(radius + y) * Math.sin(turned), (radius + y) * Math.cos(turned), z];
   };
 
 const twisted =
   (angle: number): Pose =>
   (x, y, z) => {
-    const turned = (angle * y) / height;
-    return [
-      x * Math.cos(turned) + z * Math.sin(turned),
-      y,
-      z * Math.cos(turned) - x * Math.sin(turned),
-    ];
+    const turned = (angle * x) / length;
+    const [cos, sin] = [Math.cos(turned), Math.sin(turned)];
+    return [x, y * cos - z * sin, y * sin + z * cos];
   };
 
-/** Points of a square with round corners. */
+/** A point on the outline of a square with round corners. */
 function outline(k: number): [number, number] {
   const angle = (2 * Math.PI * (k + 0.5)) / around;
   const [cos, sin] = [Math.cos(angle), Math.sin(angle)];
-  const radius = halfWidth / (cos ** 6 + sin ** 6) ** (1 / 6);
+  const radius = halfWidth / (cos ** 4 + sin ** 4) ** (1 / 4);
   return [radius * cos, radius * sin];
 }
 
+/** Rings of vertices from one end to the other, and the middles of both ends. */
 function positionsOf(pose: Pose): Float64Array {
   const points: [number, number, number][] = [];
   for (let ring = 0; ring <= along; ++ring) {
+    // Rings are dense near the ends, which are round.
+    const share = (1 - Math.cos((Math.PI * ring) / along)) / 2;
+    const x = length * ((share + ring / along) / 2 - 0.5);
+    const inside = Math.min(1, (length / 2 - Math.abs(x)) / rounding);
+    const scale = 0.55 + 0.45 * Math.sqrt(1 - (1 - inside) ** 2);
     for (let k = 0; k < around; ++k) {
-      const [x, z] = outline(k);
-      points.push(pose(x, (height * ring) / along, z));
+      const [y, z] = outline(k);
+      points.push(pose(x, scale * y, scale * z));
     }
   }
-  // The ends: a smaller ring, and the middle.
-  for (const y of [0, height]) {
-    for (let k = 0; k < around; ++k) {
-      const [x, z] = outline(k);
-      points.push(pose(x / 2, y, z / 2));
-    }
-    points.push(pose(0, y, 0));
-  }
+  for (const x of [-length / 2, length / 2]) points.push(pose(x, 0, 0));
   return new Float64Array(points.flat());
 }
 
 function triangles(): Uint32Array<ArrayBuffer> {
   const indices: number[] = [];
-  /** Between two rings, the first of which lies before the second, seen from outside. */
-  const band = (from: number, to: number) => {
-    for (let k = 0; k < around; ++k) {
-      const next = (k + 1) % around;
-      indices.push(from + k, to + k, to + next, from + k, to + next, from + next);
+  const last = along * around;
+  const [start, end] = [last + around, last + around + 1];
+  for (let k = 0; k < around; ++k) {
+    const next = (k + 1) % around;
+    for (let ring = 0; ring < last; ring += around) {
+      const to = ring + around;
+      indices.push(ring + k, ring + next, to + next, ring + k, to + next, to + k);
     }
-  };
-  const fan = (ring: number, middle: number, isLast: boolean) => {
-    for (let k = 0; k < around; ++k) {
-      const next = (k + 1) % around;
-      indices.push(middle, ...(isLast ? [ring + next, ring + k] : [ring + k, ring + next]));
-    }
-  };
-  for (let ring = 0; ring < along; ++ring) band(ring * around, (ring + 1) * around);
-  const first = (along + 1) * around;
-  const last = first + around + 1;
-  band(first, 0);
-  fan(first, first + around, false);
-  band(along * around, last);
-  fan(last, last + around, true);
+    indices.push(start, next, k, end, last + k, last + next);
+  }
   return new Uint32Array(indices);
 }
 
@@ -89,8 +79,8 @@ export function example(): Example {
   return {
     indices: triangles(),
     poses: [
-      { name: 'straight', positions: positionsOf((x, y, z) => [x, y, z]) },
-      { name: 'bent', positions: positionsOf(bent(2.4)) },
+      { name: 'straight', positions: positionsOf(straight) },
+      { name: 'bent', positions: positionsOf(bent(2.6)) },
       { name: 'twisted', positions: positionsOf(twisted(2.8)) },
     ],
   };

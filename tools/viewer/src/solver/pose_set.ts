@@ -91,8 +91,8 @@ export class PoseSet {
   }
 
   /**
-   * What is handed to a solver: the files where they can be, because they have colours and textures
-   * that saved motions then have too; else positions.
+   * What is handed to a solver: files where they have colours or texture coordinates, which saved
+   * motions then have too; else positions, which need not be read a second time.
    */
   forSolver(): Pose[] {
     const whole: MeshFile[] = [];
@@ -101,7 +101,7 @@ export class PoseSet {
     }
     const inOrder = whole.flatMap((file) => this.posesOf.get(file) ?? []);
     const fits = inOrder.length === this.list.length && inOrder.every((pose, i) => pose === this.list[i]);
-    if (fits) return whole;
+    if (fits && whole.some(hasLooks)) return whole;
     const { indices } = this;
     return this.list.map(({ name, positions }) => ({ name, positions, indices }));
   }
@@ -148,6 +148,19 @@ export class PoseSet {
       return { name: own, data };
     });
   }
+}
+
+/** Whether a file may have colours or texture coordinates. */
+function hasLooks({ name, data }: MeshFile): boolean {
+  if (/\.(off|stl)$/i.test(name)) return false;
+  if (!/\.obj$/i.test(name)) return true;
+  const start = new TextDecoder('latin1').decode(data.subarray(0, 4096));
+  if (/^v(\s+\S+){6}\s*$/m.test(start)) return true;
+  const [v, t, space, newline] = [118, 116, 32, 10];
+  for (let i = data.indexOf(v); i >= 0; i = data.indexOf(v, i + 1)) {
+    if (data[i + 1] === t && data[i + 2] === space && (i === 0 || data[i - 1] === newline)) return true;
+  }
+  return false;
 }
 
 /** Names of the library begin with the folder in which it has the files. */

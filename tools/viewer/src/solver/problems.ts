@@ -12,8 +12,12 @@ export interface Remedy {
 const words: [RegExp, string][] = [
   [/\. If the pose is right, say so by allow_mismatch/g, ''],
   [/\. If it was turned over on purpose, say so by allow_mirrored/g, ''],
-  [/;? ?or (?:raise|a higher) memory_limit/g, ''],
-  [/, or have one coordinate flipped/g, ''],
+  [/more than the memory limit/g, 'more than the 2,000 MB that this page takes'],
+  [/ or raise memory_limit/g, ''],
+  [
+    /If they never were one mesh, fit .* onto .* with Correspond/g,
+    'If they never were one mesh, the program shape-correspond of shapespace fits one onto the other; this page cannot',
+  ],
 ];
 
 /** A sentence of the library, or of the browser, as it is shown. */

@@ -14,6 +14,9 @@ const grip = 16;
 /** By which a key pulls, as a share of the body's size. */
 const keyStep = 0.03;
 
+/** An update is so rough that the body follows the pointer; others go on from it, so many at most. */
+const mostRounds = 12;
+
 const pinned = new Color(0x1f5fae);
 
 export interface Surroundings {
@@ -54,6 +57,8 @@ export class Pulling {
   private wanted = false;
   private updating = false;
   private moved = false; // whether the body is no longer as it was
+  private news = ''; // a sentence that is still to be read when the body is ready
+  private rounds = 0; // updates for the places that pins have now
 
   constructor(private readonly around: Surroundings) {
     this.listen();
@@ -78,6 +83,7 @@ export class Pulling {
     this.deformation.catch((error: Error) => {
       if (this.on) this.around.onError(error);
     });
+    this.news = '';
     this.change();
   }
 
@@ -265,11 +271,13 @@ export class Pulling {
       // Nothing would hold the body: it would go along as a whole.
       const far = farthestFrom(press.vertex, mesh.positions, mesh.body.triangles);
       this.pins.unshift(pinAt(far, mesh.positions, mesh.body.side, this.neighbours!));
-      tell('The far end was pinned, so that it stays. Click the body to pin other parts.');
+      this.news = 'The far end is pinned, so that it stays. Click the body to pin other parts.';
+      tell(this.news);
       this.change();
     }
     const plane = this.facing(new Vector3().fromArray(mesh.inCube, 3 * pin.vertices[0]));
     const from = this.onPlane(plane, press.x, press.y);
+    if (!this.moved) this.update(); // the first one takes long: it begins before the body is moved
     return from && { pin, before: pin.positions.slice(), plane, from };
   }
 
@@ -300,6 +308,7 @@ export class Pulling {
   /** One update is computed at a time, and after it the one for what is wanted then. */
   private update(): void {
     this.wanted = true;
+    this.rounds = 0;
     if (!this.updating) void this.updateAll();
   }
 
@@ -307,16 +316,20 @@ export class Pulling {
     const { deformation } = this;
     if (!deformation) return;
     this.updating = true;
+    if (!this.moved) this.around.tell('One moment: the body is made ready to be pulled.');
     const isCurrent = () => this.deformation === deformation && this.pins.length > 0;
     try {
       const { update } = await deformation;
       while (this.wanted && isCurrent()) {
         this.wanted = false;
-        const { shapes } = await update(this.pins.map(({ vertices, positions }) => ({ vertices, positions })));
+        const handles = this.pins.map(({ vertices, positions }) => ({ vertices, positions }));
+        const { shapes, converged } = await update(handles);
         if (!isCurrent()) break;
+        if (!this.moved) this.around.tell(this.news);
         this.moved = true;
         this.around.mesh.show(shapes[shapes.length - 1]);
         this.change();
+        this.wanted ||= !converged && ++this.rounds < mostRounds;
       }
     } catch (error) {
       if (isCurrent()) this.around.onError(error as Error);

@@ -27,6 +27,13 @@ import { hideWork, showWork } from './work';
 const leastSeconds = 3;
 const secondsAPart = 2;
 
+/** The last shape alone is shown, and it should follow the pointer. */
+const whilePulling = { shapes: 1, tolerance: 0.01, maxIterations: 4 };
+
+/** About what solvers need for each vertex of each shape, and from how much on it is said. */
+const bytesAVertex = 1000;
+const saidFrom = 200e6;
+
 const unfinished =
   'The solver has ended before the motion was as smooth as it could be. Fewer shapes may help.';
 
@@ -214,7 +221,10 @@ export class SolverPage {
       mesh,
       labels: byId('labels'),
       deform: (positions) =>
-        this.helper.deform({ positions, indices: mesh.body.triangles }, { mesh: this.poses.meshOptions }),
+        this.helper.deform(
+          { positions, indices: mesh.body.triangles },
+          { mesh: this.poses.meshOptions, ...whilePulling },
+        ),
       onChange: () => this.showPulling(),
       onError: (error) => showProblems([sentenceOf(error)]),
       tell,
@@ -266,8 +276,12 @@ export class SolverPage {
 
   private showBusy(busy: boolean): void {
     if (this.readings > 0) return;
-    if (busy) showWork('Computing the motion', 0);
-    else hideWork();
+    if (!busy) return hideWork();
+    const { list, vertices } = this.poses;
+    const shapes = list.length + (list.length - 1) * settings().options.shapes!;
+    const bytes = bytesAVertex * vertices * shapes;
+    const memory = bytes < saidFrom ? '' : `, which needs about ${Math.round(bytes / 1e6)} MB of memory`;
+    showWork(`Computing the motion${memory}`, 0);
   }
 
   private showPath(path: Path, isFinal: boolean): void {
