@@ -17,7 +17,7 @@ export type {
   Shapespace,
 } from '../../../../javascript/index';
 
-export const { ShapespaceError }: typeof Package = core;
+export const { MismatchError, ShapespaceError }: typeof Package = core;
 
 const Solver: new (wasm: ArrayBuffer, start: () => Worker) => Package.Shapespace = core.Shapespace;
 

@@ -24,7 +24,13 @@ const words: [RegExp, string][] = [
 export function sentenceOf(error: Error): string {
   if (!(error instanceof ShapespaceError)) return `That has failed: ${error.message}.`;
   const text = words.reduce((so, [from, to]) => so.replace(from, to), withoutFolder(error.message));
-  return /[.!?]$/.test(text) ? text : `${text}.`;
+  const remedies = new Set<string>();
+  const lines = text.split('\n').filter((line) => {
+    // Several findings may have one remedy, which is read once.
+    const [, remedy = line] = line.match(/;(.*)/) ?? [];
+    return !remedies.has(remedy) && remedies.add(remedy);
+  });
+  return lines.map((line) => (/[.!?]$/.test(line) ? line : `${line}.`)).join('\n');
 }
 
 /** What can be answered to a refusal: options of meshes, and the words on the button. */
@@ -46,7 +52,7 @@ export function answerTo(error: Error): { text: string; options: MeshOptions } |
 export function showProblems(sentences: string[], remedies: Remedy[] = []): void {
   byId('problems').hidden = sentences.length === 0;
   byId('problem-text').replaceChildren(
-    ...sentences.map((sentence) => {
+    ...sentences.join('\n').split('\n').map((sentence) => {
       const paragraph = document.createElement('p');
       paragraph.textContent = sentence;
       return paragraph;

@@ -12,7 +12,7 @@ import { onTheme } from '../theme';
 import { startTransport } from '../transport';
 import { startDropping } from './dropping';
 import { example } from './example';
-import type { MeshFile, Path, Progress, Shapespace } from './library';
+import { MismatchError, type MeshFile, type Path, type Progress, type Shapespace } from './library';
 import { LiveMesh } from './live_mesh';
 import { showFindings, showRows } from './pose_rows';
 import { PoseSet, withoutFolder, type Refused } from './pose_set';
@@ -141,7 +141,8 @@ export class SolverPage {
       });
     }
     // Another mesh may well be meant to be the beginning of another motion.
-    if (error.name === 'MismatchError' && this.poses.list.length > 0 && refused.length === files.length) {
+    const isOther = error instanceof MismatchError && !answer && refused.length === files.length;
+    if (isOther && this.poses.list.length > 0) {
       remedies.push({
         text: 'Begin anew with it',
         act: () => {
