@@ -87,7 +87,9 @@ EOF
   SHAPESPACE_PAGE_DIR=$PWD SHAPESPACE_PAGE_TEMPLATE=$root/tools/viewer/dist/viewer.html \
     "$root/build/release/tests/output/output_test" --gtest_filter='*WritesSpaces*:*WritesForOther*'
   cp "$root/tools/viewer/dist/viewer.html" empty.html
+  if [ -f "$root/tools/viewer/dist/solver.html" ]; then cp "$root/tools/viewer/dist/solver.html" .; fi
 } >"$work/log" 2>&1
 trap - ERR
 cd "$work"
-SHAPESPACE_PAGE_DIR=$work/pages SHAPESPACE_PAGE_BIN=$bin node --test page.test.mjs explained.test.mjs skinned.test.mjs
+SHAPESPACE_PAGE_DIR=$work/pages SHAPESPACE_PAGE_BIN=$bin node --test page.test.mjs explained.test.mjs skinned.test.mjs \
+  solver.test.mjs

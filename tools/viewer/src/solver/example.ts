@@ -17,13 +17,14 @@ type Pose = (x: number, y: number, z: number) => [number, number, number];
 
 const straight: Pose = (x, y, z) => [x, y, z];
 
-/** As an arch that turns by `angle` in all. */
+/** As an arch that turns by `angle` in all, with its middle where that of the straight bar is. */
 const bent =
   (angle: number): Pose =>
   (x, y, z) => {
     const radius = length / angle;
     const turned = x / radius;
-    return [(radius + y) * Math.sin(turned), (radius + y) * Math.cos(turned), z];
+    const middle = (radius * Math.sin(angle / 2)) / (angle / 2);
+    return [(radius + y) * Math.sin(turned), (radius + y) * Math.cos(turned) - middle, z];
   };
 
 const twisted =
