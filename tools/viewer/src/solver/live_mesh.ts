@@ -19,6 +19,9 @@ import { viewOf } from './viewpoint';
 
 type Frame = Pick<Body, 'triangles' | 'vertices' | 'low' | 'side' | 'up' | 'eye'>;
 
+/** Polyhedra and folded paper have few vertices; meshes of more are smooth. */
+const mostJudged = 100000;
+
 const everywhere = new Sphere(new Vector3(), Infinity);
 
 /** The cube around shapes: its lowest corner, and its side. */
@@ -117,7 +120,7 @@ export class LiveMesh extends Group implements Shown {
     const cube = cubeAround(shapes);
     this.body = { triangles: indices, vertices, ...cube, ...viewOf(shapes) };
     this.shapes = shapes;
-    this.flat = isFaceted(this.body, this.rounded(shapes[0]));
+    this.flat = vertices < mostJudged && isFaceted(this.body, this.rounded(shapes[0]));
     this.colour(new Map());
     this.show(shapes[0]);
     return this.body;

@@ -37,11 +37,11 @@ export class PoseSet {
 
   /** Reads files with those that are here already, because only all together tell how a mesh is
    * cut and where it has seams. What is right stays, and the rest is returned. */
-  async add(files: MeshFile[]): Promise<Refused[]> {
+  async add(files: MeshFile[], signal: AbortSignal): Promise<Refused[]> {
     const renamed = this.withNamesOfTheirOwn(files);
     const before = this.given();
     try {
-      const reading = await this.read([...before.poses, ...renamed]);
+      const reading = await this.read([...before.poses, ...renamed], signal);
       // Otherwise some of the files have several poses, and reading them one by one tells which.
       if (reading.names.length === before.count + renamed.length) {
         renamed.forEach((file, i) => this.append(reading, before.count + i, file));
@@ -55,7 +55,7 @@ export class PoseSet {
     for (const file of renamed) {
       const { poses, count } = this.given();
       try {
-        const reading = await this.read([...poses, file]);
+        const reading = await this.read([...poses, file], signal);
         for (let i = count; i < reading.names.length; ++i) this.append(reading, i, file);
         this.take(reading, [file]);
       } catch (error) {
@@ -109,8 +109,8 @@ export class PoseSet {
   /** The poses that each file has, in its order. */
   private readonly posesOf = new WeakMap<MeshFile, ListedPose[]>();
 
-  private read(poses: Pose[]): Promise<Reading> {
-    return this.library.read(poses, this.meshOptions);
+  private read(poses: Pose[], signal: AbortSignal): Promise<Reading> {
+    return this.library.read(poses, { ...this.meshOptions, signal });
   }
 
   /** What new files are read with, and how many poses that is. */

@@ -60,6 +60,7 @@ export class SolverPage {
   private frame = new Float64Array(); // positions of the motion, as they are shown
   private reading: Promise<void> = Promise.resolve();
   private readings = 0;
+  private stopReading = new AbortController();
   private pulled = 0;
 
   constructor(
@@ -115,14 +116,16 @@ export class SolverPage {
   /** Reads files after those that came before. */
   private take(files: MeshFile[]): void {
     ++this.readings;
+    const { signal } = this.stopReading;
     this.reading = this.reading.then(async () => {
       const what = files.length === 1 ? files[0].name : `${files.length} files`;
-      showWork(`Reading ${what}, ${megabytes(files).toFixed(1)} MB`, null);
-      const refused = await this.poses.add(files);
+      const size = megabytes(files);
+      showWork(`Reading ${what}${size < 1 ? '' : `, ${Math.round(size)} MB`}`, null);
+      const refused = await this.poses.add(files, signal);
       --this.readings;
       this.showBusy(this.solving.busy);
-      this.showRefused(refused, files);
       if (refused.length < files.length) this.listChanged();
+      if (!signal.aborted) this.showRefused(refused, files);
     });
   }
 
@@ -261,6 +264,11 @@ export class SolverPage {
   }
 
   private cancel(): void {
+    if (this.readings > 0) {
+      this.stopReading.abort();
+      this.stopReading = new AbortController();
+      return tell('Cancelled: the files were not read.');
+    }
     this.solving.cancel();
     tell(
       this.path

@@ -5,6 +5,7 @@ import type { Body } from '../scene_data';
 
 /** Of the diagonal: what is not farther from the lowest point touches the floor. */
 const floorSlab = 0.02;
+const mostVertices = 5000;
 /** Degrees around the body, from the front, and up; the first of several that are alike is taken. */
 const azimuths = [35, -35, 65, -65, 10];
 const elevation = 14;
@@ -71,7 +72,19 @@ function seenArea(spread: Matrix3, right: Vector3, above: Vector3): number {
   return product(right, right) * product(above, above) - product(right, above) ** 2;
 }
 
-export function viewOf(shapes: Float64Array[]): Pick<Body, 'up' | 'eye'> {
+/** Some of the vertices: enough to choose a view by, and soon counted. */
+function sample(shape: Float64Array): Float64Array {
+  const vertices = shape.length / 3;
+  const step = Math.max(1, Math.floor(vertices / mostVertices));
+  const values = new Float64Array(3 * Math.ceil(vertices / step));
+  for (let i = 0; i < values.length; i += 3) {
+    values.set(shape.subarray(step * i, step * i + 3), i);
+  }
+  return values;
+}
+
+export function viewOf(all: Float64Array[]): Pick<Body, 'up' | 'eye'> {
+  const shapes = all.map(sample);
   const up = chooseUp(shapes);
   const front = up.z > 0 ? new Vector3(0, -1, 0) : new Vector3(0, 0, 1);
   const spread = moments(shapes);
