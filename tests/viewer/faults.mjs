@@ -61,7 +61,7 @@ export function namelessControls() {
   return [...document.querySelectorAll(controls)]
     .filter((element) => element.checkVisibility())
     .filter((element) => {
-      const label = element.getAttribute('aria-label') ?? element.closest('label')?.textContent;
+      const label = element.getAttribute('aria-label') ?? element.labels?.[0]?.textContent;
       return !(label ?? element.textContent).trim();
     })
     .map((element) => `${element.tagName} ${element.id}`);

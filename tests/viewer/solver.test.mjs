@@ -44,6 +44,10 @@ async function setSlider(page, id, value) {
   }, value);
 }
 
+// Waits until so many pins are drawn.
+const pins = (page, count) =>
+  page.waitForFunction((wanted) => document.querySelectorAll('.pin').length === wanted, count);
+
 const names = (page) => page.locator('#poses span').allInnerTexts();
 
 // The motion between two animals, as the tools made walk.path.
@@ -327,7 +331,7 @@ describe('pulling', { skip }, () => {
         await page.waitForFunction(() => !document.getElementById('keep').disabled, null, { timeout: 60000 });
       });
       // What was dragged, and the far end.
-      assert.equal(await page.locator('.pin').count(), 2);
+      await pins(page, 2);
       await page.getByRole('button', { name: 'Keep as a pose' }).click();
       assert.deepEqual(await names(page), ['straight', 'bent', 'twisted', 'pulled 1']);
       await appears(page, 'facts', '49 shapes');
@@ -344,16 +348,16 @@ describe('pulling', { skip }, () => {
       assert.equal(await page.locator('#pull').getAttribute('aria-pressed'), 'true');
       await page.locator('#canvas').focus();
       await page.keyboard.press('Enter');
-      assert.equal(await page.locator('.pin').count(), 1);
+      await pins(page, 1);
       await assertChanges(page, async () => {
         for (let i = 0; i < 5; ++i) await page.keyboard.press('Shift+ArrowUp');
         await page.waitForFunction(() => !document.getElementById('keep').disabled, null, { timeout: 60000 });
       });
-      assert.equal(await page.locator('.pin').count(), 2);
+      await pins(page, 2);
       await page.keyboard.press('Delete');
-      assert.equal(await page.locator('.pin').count(), 1);
+      await pins(page, 1);
       await page.getByRole('button', { name: 'Clear pins' }).click();
-      assert.equal(await page.locator('.pin').count(), 0);
+      await pins(page, 0);
       assert.equal(await page.locator('#keep').isDisabled(), true);
       await page.keyboard.press('Escape');
       assert.equal(await page.locator('#pull').getAttribute('aria-pressed'), 'false');
