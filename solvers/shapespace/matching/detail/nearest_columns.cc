@@ -4,6 +4,7 @@
 #include <limits>
 
 #include <shapespace/base/internal/clones.h>
+#include <shapespace/base/parallel.h>
 
 namespace shapespace::internal {
 namespace {
@@ -76,12 +77,12 @@ std::vector<int> NearestColumns(const Eigen::Ref<const Eigen::MatrixXf>& queries
     block.topRightCorner(count, dimensions) = own.transpose();
   }
   std::vector<int> nearest((num_queries + kQueries - 1) / kQueries * kQueries);
-  Eigen::MatrixXf group = Eigen::MatrixXf::Zero(kQueries, dimensions);
-  for (int begin = 0; begin < num_queries; begin += kQueries) {
-    const int count = std::min(kQueries, num_queries - begin);
+  ParallelFor(static_cast<int>(nearest.size()) / kQueries, [&](int g) {
+    const int begin = g * kQueries, count = std::min(kQueries, num_queries - begin);
+    Eigen::MatrixXf group = Eigen::MatrixXf::Zero(kQueries, dimensions);
     group.topRows(count) = queries.middleCols(begin, count).transpose();
     NearestOfBlocks(blocks.data(), num_blocks, dimensions, group.data(), &nearest[begin]);
-  }
+  });
   nearest.resize(num_queries);
   return nearest;
 }
