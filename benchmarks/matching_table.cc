@@ -9,7 +9,7 @@
 // Every folder has a file pairs.txt, a line for each pair: the names of two meshes,
 // FOLDER/NAME.obj, and of the file with their known answer, lines with a vertex of each, from 1.
 //
-// A line for each candidate is printed with --candidates.
+// A line for each candidate is printed with --candidates. With --fit=false nothing is fitted.
 
 #include <algorithm>
 #include <cmath>
@@ -30,6 +30,7 @@
 #include <shapespace/mesh/internal/geometry.h>
 
 DEFINE_bool(candidates, false, "print a line for each candidate");
+DEFINE_bool(fit, true, "fit the template");
 DEFINE_string(name, "", "only the pairs whose names contain this");
 
 namespace shapespace {
@@ -152,7 +153,11 @@ void PrintPair(const std::string& folder, const std::string& source, const std::
   sum->first += errors[0];
   sum->best += best;
   std::printf("%.2f | %.2f | ", errors[0], best);
-  PrintFit(from, to, judge, sum);
+  if (FLAGS_fit) {
+    PrintFit(from, to, judge, sum);
+  } else {
+    std::printf("|\n");
+  }
   for (size_t i = 0; FLAGS_candidates && i < errors.size(); ++i) {
     const internal::MapCandidate& candidate = matching.candidates[i];
     std::printf("  map %d: error %.2f cost %.3f isometry %.3f curvature %.3f orientation %.3f\n",
