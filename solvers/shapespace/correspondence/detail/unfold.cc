@@ -127,7 +127,7 @@ Shape Averaged(const Level& level, const MeanValueWeights& neighbours, const Tar
       });
       const Eigen::Vector3d mean = sum / weights;
       const ClosestPoint on_target =
-          target.Nearest(mean, normal.stableNormalized(), level.vertices[v]);
+          target.Nearest(mean, normal.stableNormalized(), level.vertices[v], kMissing);
       if (on_target.triangle < 0) continue;
       shape.col(v) = on_target.point;
       facing.col(v) = target.NormalAt(on_target);
@@ -161,6 +161,27 @@ std::vector<ClosestPoint> MapAnew(const Level& level, const Shape& shape, const 
     bool is_affected = moved[v];
     neighbours.ForEach(v, [&](int w, double) { is_affected = is_affected || moved[w]; });
     if (is_affected) closest[v] = MapVertex(level, shape, normals, target, v);
+  });
+  return closest;
+}
+
+// The result of MapVertices for `shape`, in which of the vertices `inside`, which all had moved in
+// the shape that belongs to `flat`, those that have not `moved` are restored to where they were
+// for `closest`. Only what is beside both needs to be searched anew.
+std::vector<ClosestPoint> Combined(const Level& level, const Shape& shape, const Target& target,
+                                   const std::vector<bool>& inside, const std::vector<bool>& moved,
+                                   const MeanValueWeights& neighbours,
+                                   std::vector<ClosestPoint> closest,
+                                   const std::vector<ClosestPoint>& flat) {
+  const Shape normals = VertexNormals(*level.connectivity, shape);
+  ParallelFor(static_cast<int>(shape.cols()), [&](int v) {
+    bool is_affected = moved[v], is_restored = inside[v] && !moved[v];
+    neighbours.ForEach(v, [&](int w, double) {
+      is_affected = is_affected || moved[w];
+      is_restored = is_restored || (inside[w] && !moved[w]);
+    });
+    if (!is_affected) return;
+    closest[v] = is_restored ? MapVertex(level, shape, normals, target, v) : flat[v];
   });
   return closest;
 }
@@ -208,8 +229,9 @@ void Unfold(const Level& level, const Shape& rest, const Target& target,
     const std::vector<int> patch = PatchesOf(inside, neighbours, &num_patches);
     if (num_patches == 0) return;
     const Shape flat = Averaged(level, neighbours, target, closest, inside, *shape);
-    const std::vector<bool> still = TurnedTriangles(
-        level, flat, target, MapAnew(level, flat, target, inside, neighbours, closest));
+    const std::vector<ClosestPoint> of_flat =
+        MapAnew(level, flat, target, inside, neighbours, closest);
+    const std::vector<bool> still = TurnedTriangles(level, flat, target, of_flat);
     const std::vector<int> before = CountTurned(turned, triangles, patch, num_patches);
     const std::vector<int> after = CountTurned(still, triangles, patch, num_patches);
     std::vector<bool> moved(flat.cols(), false);
@@ -217,7 +239,8 @@ void Unfold(const Level& level, const Shape& rest, const Target& target,
       moved[v] = inside[v] && after[patch[v]] < before[patch[v]];
       if (moved[v]) shape->col(v) = flat.col(v);
     }
-    closest = MapAnew(level, *shape, target, moved, neighbours, std::move(closest));
+    closest =
+        Combined(level, *shape, target, inside, moved, neighbours, std::move(closest), of_flat);
   }
 }
 
