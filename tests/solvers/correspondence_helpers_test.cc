@@ -1,6 +1,7 @@
 // What the fit of a template is made of, each by itself: the quantities that it is defined to
 // return.
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <random>
@@ -9,9 +10,11 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
+#include <shapespace/bodies/quadruped.h>
 #include <shapespace/bodies/sheet.h>
 #include <shapespace/bodies/tube.h>
 #include <shapespace/correspondence/detail/closest.h>
+#include <shapespace/correspondence/detail/coarse_body.h>
 #include <shapespace/correspondence/detail/gradient_fit.h>
 #include <shapespace/correspondence/detail/smooth_stretch.h>
 #include <shapespace/correspondence/detail/unfold.h>
@@ -63,6 +66,20 @@ TEST(SmoothStretch, AUniformStretchComesBackExactly) {
 
 // The formula that Floater derives his weights from: in a plane each vertex is the mean of those
 // around it.
+TEST(CoarseBody, KeepsWhatIsPinnedAndAllOfASmallBody) {
+  const SkinnedBody body = MakeQuadruped(3000);
+  const FitBody whole(body.connectivity, body.pose("sit"));
+  const std::vector<int> pinned = {7, 1000, 3, 7};
+  const CoarseBody coarse = Coarsen(whole, 500, pinned);
+  EXPECT_LT(coarse.body.connectivity->NumTriangles(), 2 * 500);
+  EXPECT_TRUE(std::is_sorted(coarse.vertices.begin(), coarse.vertices.end()));
+  for (const int v : pinned) EXPECT_EQ(coarse.vertices[coarse.IndexOf(v)], v);
+  // Up to another frame, in which its own area is 1.
+  const Shape before = whole.own(Eigen::all, coarse.vertices);
+  EXPECT_LT((coarse.body.frame.Out(coarse.body.own) - before).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_EQ(Coarsen(whole, 2000, pinned).body.own, whole.own);
+}
+
 TEST(MeanValueWeights, EachVertexOfAPlaneIsTheMeanOfItsNeighbours) {
   const UnevenSheet sheet;
   const Eigen::Matrix3d turn(Eigen::AngleAxisd(0.8, Eigen::Vector3d(1, 2, 3).normalized()));

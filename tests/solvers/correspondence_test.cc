@@ -95,6 +95,29 @@ TEST(Correspond, OneMarkerDecidesBetweenMaps) {
   EXPECT_LT(bodies.Errors(result.map).mean(), bodies.Edge());
 }
 
+// Large bodies are decimated to find the map. What is found has the numbers of their own vertices,
+// and so has the pair that is given. Three levels are fitted: the last but one reaches the last
+// weight, so that the last needs no other.
+TEST(Correspond, FindsTheMapOfLargeBodies) {
+  Remeshed bodies("sit", 34000, 40000);
+  const CorrespondenceMarker given = bodies.markers.front();
+  bodies.markers = {given};
+  const CorrespondenceResult result = bodies.Fit();
+  EXPECT_LT(bodies.Errors(result.map).mean(), 2 * bodies.Edge()) << result.summary.FullReport();
+  EXPECT_EQ(result.fitted.col(given.template_vertex), bodies.target.col(given.target_vertex));
+  EXPECT_GT(result.markers.size(), 10u);
+  for (const CorrespondenceMarker& marker : result.markers) {
+    const Eigen::Vector3d from = bodies.rest.col(marker.template_vertex);
+    EXPECT_LT((bodies.other_rest.col(marker.target_vertex) - from).norm(), 20 * bodies.Edge());
+  }
+  EXPECT_EQ(result.in_doubt.size(), static_cast<size_t>(bodies.rest.cols()));
+  const CorrespondenceSummary::Stage &last = result.summary.stages.back(),
+                                     &before = *(result.summary.stages.end() - 2);
+  EXPECT_EQ(last.vertices, bodies.rest.cols());
+  EXPECT_LT(before.vertices, last.vertices);
+  EXPECT_EQ(before.weight, last.weight);
+}
+
 // Needles, caps, and noise of a third of an edge at every tenth vertex.
 TEST(Correspond, FindsTheMapWithoutMarkersOnBadMeshes) {
   const auto error = [](Remeshed bodies, const testing::PosedMesh& mesh) {
@@ -439,6 +462,7 @@ TEST(Correspond, RefusesMarkersThatCannotDo) {
          "marker 4: the target has no vertex 100001");
   expect(message([](auto* m) { (*m)[3].template_vertex = -1; }),
          "marker 4: the template has no vertex 0");
+  expect(message([](auto* m) { *m = {{0, 100000}}; }), "marker 1: the target has no vertex 100001");
   const ShapeFamily bar = MakeBar(6, 1, 1, 24, 4, 4);
   const Shape rest = bar.pose(0);
   std::vector<CorrespondenceMarker> line;  // a long edge of the bar

@@ -31,15 +31,9 @@ double SineAround(const Shape& shape, const Shape& normals, int a, int b, int c)
 
 }  // namespace
 
-void CheckMarkers(const std::vector<CorrespondenceMarker>& markers,
-                  const Connectivity& template_connectivity,
-                  const Connectivity& target_connectivity) {
-  if (markers.size() < 3) {
-    throw MeshError(Count(static_cast<int>(markers.size()), "marker") +
-                    (markers.size() == 1 ? " is" : " are") +
-                    " too few: give at least three that do not lie on a line, better one at the "
-                    "end of every limb and a few on the trunk");
-  }
+void CheckMarkerVertices(const std::vector<CorrespondenceMarker>& markers,
+                         const Connectivity& template_connectivity,
+                         const Connectivity& target_connectivity) {
   const auto check = [&](const std::string& name, const Connectivity& connectivity,
                          int CorrespondenceMarker::*vertex) {
     std::map<int, size_t> seen;
@@ -64,6 +58,18 @@ void CheckMarkers(const std::vector<CorrespondenceMarker>& markers,
   };
   check("template", template_connectivity, &CorrespondenceMarker::template_vertex);
   check("target", target_connectivity, &CorrespondenceMarker::target_vertex);
+}
+
+void CheckMarkers(const std::vector<CorrespondenceMarker>& markers,
+                  const Connectivity& template_connectivity,
+                  const Connectivity& target_connectivity) {
+  if (markers.size() < 3) {
+    throw MeshError(Count(static_cast<int>(markers.size()), "marker") +
+                    (markers.size() == 1 ? " is" : " are") +
+                    " too few: give at least three that do not lie on a line, better one at the "
+                    "end of every limb and a few on the trunk");
+  }
+  CheckMarkerVertices(markers, template_connectivity, target_connectivity);
 }
 
 void CheckPlacement(const Shape& on_template, const Shape& on_target) {

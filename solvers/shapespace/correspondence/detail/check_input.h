@@ -10,7 +10,13 @@
 
 namespace shapespace::internal {
 
-/// \throw MeshError naming the marker, from 1, and what to do about it.
+/// \throw MeshError if a marker is on a vertex that a body does not have, that no triangle uses or
+///        that has another marker, naming the marker, from 1, and what to do about it.
+void CheckMarkerVertices(const std::vector<CorrespondenceMarker>& markers,
+                         const Connectivity& template_connectivity,
+                         const Connectivity& target_connectivity);
+
+/// \throw as CheckMarkerVertices, and if there are fewer than three.
 void CheckMarkers(const std::vector<CorrespondenceMarker>& markers,
                   const Connectivity& template_connectivity,
                   const Connectivity& target_connectivity);

@@ -7,13 +7,14 @@
 #include <utility>
 
 #include <shapespace/base/error.h>
-#include <shapespace/base/internal/sort_unique.h>
 #include <shapespace/base/internal/stopwatch.h>
 #include <shapespace/base/internal/task_group.h>
+#include <shapespace/correspondence/detail/check_input.h>
 #include <shapespace/correspondence/detail/closest.h>
+#include <shapespace/correspondence/detail/coarse_body.h>
+#include <shapespace/correspondence/detail/marker_distances.h>
 #include <shapespace/correspondence/detail/nearest_corners.h>
 #include <shapespace/correspondence/detail/smooth_stretch.h>
-#include <shapespace/hierarchy/hierarchy.h>
 #include <shapespace/matching/internal/matching.h>
 #include <shapespace/mesh/internal/sides.h>
 #include <shapespace/summary/internal/report.h>
@@ -34,35 +35,22 @@ constexpr double kPartShare = 0.01;
 // Fits that deform the template more than this are guesses.
 constexpr double kUnlike = 0.5;
 
+// Candidates are found and fitted on bodies with so many triangles, if the given ones have more
+// than twice as many: 50 for each wave of the functions of which maps are made. Finer ones take
+// more time and tell nothing more.
+constexpr int kSearchedOn = 10000;
 // Markers are refined by a fit of the template with so many triangles. Those of finer fits are no
 // better.
 constexpr int kRefinedOn = 4000;
 
-// The template with fewer triangles. Its vertices are some of the whole one's, in ascending order.
-struct CoarseBody {
-  FitBody body;
-  std::vector<int> vertices;
+using Markers = std::vector<CorrespondenceMarker>;
 
-  // The markers, whose vertices are among these.
-  std::vector<CorrespondenceMarker> Own(std::vector<CorrespondenceMarker> markers) const {
-    for (CorrespondenceMarker& marker : markers) {
-      marker.template_vertex = static_cast<int>(
-          std::lower_bound(vertices.begin(), vertices.end(), marker.template_vertex) -
-          vertices.begin());
-    }
-    return markers;
+// The markers on a coarser template.
+Markers On(const CoarseBody& from, Markers markers) {
+  for (CorrespondenceMarker& marker : markers) {
+    marker.template_vertex = from.IndexOf(marker.template_vertex);
   }
-};
-
-CoarseBody Coarsen(const FitBody& whole, int triangles,
-                   const std::vector<CorrespondenceMarker>& markers) {
-  HierarchyOptions options;
-  options.coarsest = triangles;
-  for (const auto& marker : markers) options.pinned.push_back(marker.template_vertex);
-  SortUnique(&options.pinned);
-  const Hierarchy hierarchy(whole.connectivity, {whole.own}, options);
-  return {{hierarchy.LevelConnectivity(0), hierarchy.Restrict(whole.own, 0)},
-          hierarchy.Vertices(0)};
+  return markers;
 }
 
 // A candidate's fit, and how unlike the bodies are where it joins them.
@@ -86,29 +74,36 @@ double Deformation(const SmoothStretch& stretch, const OwnFrame& frame,
 
 class Finder {
  public:
-  Finder(const FitBody& from, const FitBody& target, const std::vector<CorrespondenceMarker>& given,
+  Finder(const FitBody& from, const FitBody& target, const Markers& given,
          const CorrespondenceOptions& options, const CorrespondenceSummary& begun,
          Progress* progress)
-      : from_(from),
-        target_(target),
-        given_(given),
+      : whole_from_(from),
+        whole_target_(target),
         options_(options),
         begun_(begun),
         progress_(progress),
-        matcher_(*from.connectivity, from.own, *target.connectivity, target.own, {}, progress) {
-    for (const CorrespondenceMarker& marker : given) {
+        searched_from_(Coarsen(from, kSearchedOn,
+                               MarkerVertices(given, &CorrespondenceMarker::template_vertex))),
+        searched_target_(Coarsen(target, kSearchedOn,
+                                 MarkerVertices(given, &CorrespondenceMarker::target_vertex))),
+        from_(searched_from_.body),
+        target_(searched_target_.body),
+        given_(given),
+        matcher_(*from_.connectivity, from_.own, *target_.connectivity, target_.own, {}, progress) {
+    for (CorrespondenceMarker& marker : given_) {
+      marker.template_vertex = searched_from_.IndexOf(marker.template_vertex);
+      marker.target_vertex = searched_target_.IndexOf(marker.target_vertex);
       given_pairs_.emplace_back(marker.template_vertex, marker.target_vertex);
     }
   }
 
   CorrespondenceResult Find() {
-    const Stopwatch stopwatch;
     matching_ = matcher_.FindCandidates(given_pairs_, progress_);
     if (matching_.candidates.empty()) {
       throw MeshError("no correspondence was found without markers: " + matching_.problem +
                       "; give three markers or more");
     }
-    const double matching_seconds = matcher_.Seconds() + stopwatch.Seconds();
+    const double matching_seconds = stopwatch_.Seconds();
     FitCandidates();
     const std::optional<size_t> other = Other();
     double certainty = kNotComputed;
@@ -140,28 +135,34 @@ class Finder {
   }
 
  private:
-  std::vector<CorrespondenceMarker> Markers(const Pairs& pairs) const {
-    std::vector<CorrespondenceMarker> markers = given_;
+  // The given markers, and those of the pairs behind them.
+  Markers All(const Pairs& pairs) const {
+    Markers markers = given_;
     for (size_t i = given_.size(); i < pairs.size(); ++i) {
       markers.push_back({pairs[i].first, pairs[i].second, true});
     }
     return markers;
   }
 
-  CorrespondenceResult FitOf(const FitBody& body, const std::vector<CorrespondenceMarker>& markers,
-                             Folds folds, Progress* progress) const {
-    return FitWithMarkers(body, target_, markers, given_.size(), options_, begun_, folds, progress);
+  CorrespondenceResult Fit(const CoarseBody& body, const FitBody& target, const Markers& markers,
+                           Progress* progress) const {
+    CorrespondenceResult result =
+        FitWithMarkers(body.body, target, On(body, markers), given_.size(), options_, begun_,
+                       Folds::kKeep, progress);
+    if (result.summary.cancelled) throw Cancelled();
+    return result;
   }
 
   // Fits the coarsened template with each candidate's markers; cheapest first.
   void FitCandidates() {
     const auto count = static_cast<int>(matching_.candidates.size());
-    std::vector<CorrespondenceMarker> all = given_;
+    Markers all = given_;
     for (const MapCandidate& candidate : matching_.candidates) {
-      const std::vector<CorrespondenceMarker> markers = Markers(candidate.markers);
+      const Markers markers = All(candidate.markers);
       all.insert(all.end(), markers.begin(), markers.end());
     }
-    const CoarseBody coarse = Coarsen(from_, options_.coarsest, all);
+    const CoarseBody coarse = Coarsen(from_, options_.coarsest,
+                                      MarkerVertices(all, &CorrespondenceMarker::template_vertex));
     const SmoothStretch stretch(coarse.body.connectivity, coarse.body.own, options_.proportions);
 
     rows_.resize(count);
@@ -172,9 +173,7 @@ class Finder {
       rows_[i].orientation = candidate.orientation;
       rows_[i].markers = static_cast<int>(candidate.markers.size());
       try {
-        const CorrespondenceResult result =
-            FitOf(coarse.body, coarse.Own(Markers(candidate.markers)), Folds::kKeep, own);
-        if (result.summary.cancelled) throw Cancelled();
+        const CorrespondenceResult result = Fit(coarse, target_, All(candidate.markers), own);
         CandidateFit& fit = fits[i].emplace();
         fit.candidate = candidate;
         fit.row = i;
@@ -214,23 +213,21 @@ class Finder {
     });
     const auto count = static_cast<int>(end - fits_.begin());
     if (count < 2) return;
-    std::vector<std::vector<CorrespondenceMarker>> reversed;
-    std::vector<CorrespondenceMarker> all;
+    std::vector<Markers> reversed;
+    Markers all;
     for (int i = 0; i < count; ++i) {
-      reversed.push_back(Markers(fits_[i].candidate.markers));
+      reversed.push_back(All(fits_[i].candidate.markers));
       for (CorrespondenceMarker& marker : reversed[i]) {
         std::swap(marker.template_vertex, marker.target_vertex);
       }
       all.insert(all.end(), reversed[i].begin(), reversed[i].end());
     }
-    const CoarseBody coarse = Coarsen(target_, options_.coarsest, all);
+    const CoarseBody coarse = Coarsen(target_, options_.coarsest,
+                                      MarkerVertices(all, &CorrespondenceMarker::template_vertex));
     const SmoothStretch stretch(coarse.body.connectivity, coarse.body.own, options_.proportions);
     std::vector<double> deformations(count);
     TaskGroup(progress_, "the reverse", count).RunAll(count, [&](int i, Progress* own) {
-      const CorrespondenceResult result =
-          FitWithMarkers(coarse.body, from_, coarse.Own(reversed[i]), given_.size(), options_,
-                         begun_, Folds::kKeep, own);
-      if (result.summary.cancelled) throw Cancelled();
+      const CorrespondenceResult result = Fit(coarse, from_, reversed[i], own);
       deformations[i] = Deformation(stretch, from_.frame, result);
     });
     for (int i = 0; i < count; ++i) {
@@ -285,9 +282,9 @@ class Finder {
       if (apart <= farthest[root]) continue;
       farthest[root] = apart;
       part.cost = fit.Cost() / fits_[0].Cost();
-      part.vertex = coarse.vertices[v];
-      part.target_vertex = fits_[0].to_target[v];
-      part.other_vertex = fit.to_target[v];
+      part.vertex = searched_from_.vertices[coarse.vertices[v]];
+      part.target_vertex = searched_target_.vertices[fits_[0].to_target[v]];
+      part.other_vertex = searched_target_.vertices[fit.to_target[v]];
     }
     std::vector<int> roots;
     for (int v = 0; v < count; ++v) {
@@ -296,11 +293,17 @@ class Finder {
     std::stable_sort(roots.begin(), roots.end(),
                      [&](int a, int b) { return part_of[a].share > part_of[b].share; });
     for (const int root : roots) parts_.push_back(part_of[root]);
+    std::vector<int> part_on_searched;
     for (const int v : matcher_.NearestOf(coarse.vertices)) {
       const bool doubted = v >= 0 && other[v] != 0;
       const auto found =
           doubted ? std::find(roots.begin(), roots.end(), connected.Find(v)) : roots.end();
-      in_doubt_.push_back(found == roots.end() ? -1 : static_cast<int>(found - roots.begin()));
+      part_on_searched.push_back(found == roots.end() ? -1
+                                                      : static_cast<int>(found - roots.begin()));
+    }
+    for (const int v :
+         NearestOf(*whole_from_.connectivity, whole_from_.own, searched_from_.vertices)) {
+      in_doubt_.push_back(v < 0 ? -1 : part_on_searched[searched_from_.IndexOf(v)]);
     }
   }
 
@@ -321,23 +324,33 @@ class Finder {
   // The whole template with the markers of a map of functions that a fit of the coarser one with
   // the candidate's makes.
   CorrespondenceResult FitWhole(const MapCandidate& candidate) const {
-    const std::vector<CorrespondenceMarker> markers = Markers(candidate.markers);
-    const CoarseBody coarse = Coarsen(from_, kRefinedOn, markers);
-    const CorrespondenceResult first =
-        FitOf(coarse.body, coarse.Own(markers), Folds::kKeep, progress_);
-    if (first.summary.cancelled) throw Cancelled();
-    return FitOf(from_, Markers(Refine(candidate, coarse, first)), Folds::kUnfold, progress_);
+    const Markers coarse_markers = All(candidate.markers);
+    const CoarseBody coarse = Coarsen(
+        from_, kRefinedOn, MarkerVertices(coarse_markers, &CorrespondenceMarker::template_vertex));
+    const CorrespondenceResult first = Fit(coarse, target_, coarse_markers, progress_);
+    Markers markers = All(Refine(candidate, coarse, first));
+    for (CorrespondenceMarker& marker : markers) {
+      marker.template_vertex = searched_from_.vertices[marker.template_vertex];
+      marker.target_vertex = searched_target_.vertices[marker.target_vertex];
+    }
+    return FitWithMarkers(whole_from_, whole_target_, markers, given_.size(), options_, begun_,
+                          Folds::kUnfold, progress_);
   }
 
-  const FitBody &from_, &target_;
-  const std::vector<CorrespondenceMarker>& given_;
+  const Stopwatch stopwatch_;
+  const FitBody &whole_from_, &whole_target_;
   const CorrespondenceOptions& options_;
   const CorrespondenceSummary& begun_;
   Progress* const progress_;
+  // The bodies on which all but the last fit is done. Vertices below are theirs.
+  const CoarseBody searched_from_, searched_target_;
+  const FitBody &from_, &target_;
+  Markers given_;
   Pairs given_pairs_;
   const SurfaceMatcher matcher_;
   Matching matching_;
   std::vector<CandidateFit> fits_;
+  // What the caller is told, with vertices of the whole bodies.
   std::vector<CorrespondenceSummary::Candidate> rows_;
   std::vector<CorrespondenceSummary::PartInDoubt> parts_;
   std::vector<int> in_doubt_;
@@ -349,6 +362,7 @@ CorrespondenceResult FitWithFoundMarkers(const FitBody& from, const FitBody& tar
                                          const std::vector<CorrespondenceMarker>& given,
                                          const CorrespondenceOptions& options,
                                          const CorrespondenceSummary& summary, Progress* progress) {
+  CheckMarkerVertices(given, *from.connectivity, *target.connectivity);
   return Finder(from, target, given, options, summary, progress).Find();
 }
 
