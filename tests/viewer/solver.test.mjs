@@ -33,7 +33,14 @@ const appears = (page, id, words) =>
     { timeout: 120000 },
   );
 
-const finished = (page) => appears(page, 'status', 'finished');
+const finished = (page) =>
+  page.waitForFunction(
+    () =>
+      !document.getElementById('transport').hidden &&
+      document.getElementById('stage').ariaBusy === 'false',
+    null,
+    { timeout: 120000 },
+  );
 const firstMotion = (page) =>
   page.waitForFunction(() => !document.getElementById('transport').hidden, null, { timeout: 60000 });
 

@@ -15,7 +15,7 @@ import { example } from './example';
 import { MismatchError, type MeshFile, type Path, type Progress, type Shapespace } from './library';
 import { LiveMesh } from './live_mesh';
 import { showFindings, showRows } from './pose_rows';
-import { PoseSet, withoutFolder, type Refused } from './pose_set';
+import { PoseSet, type Refused } from './pose_set';
 import { answerTo, sentenceOf, showProblems, type Remedy } from './problems';
 import { Pulling } from './pulling';
 import { save, type Format } from './saving';
@@ -31,17 +31,18 @@ const secondsAPart = 2;
 const whilePulling = { shapes: 1, tolerance: 0.01, maxIterations: 4 };
 
 /** About what solvers need for each vertex of each shape, and from how much on it is said. */
-const bytesAVertex = 1000;
+const bytesAVertex = 600;
 const saidFrom = 200e6;
 
 const unfinished =
   'The solver has ended before the motion was as smooth as it could be. Fewer shapes may help.';
 
-function timelineOf({ times, poses, names }: Path): Timeline {
+/** Previews have no names: these are those of the list. */
+function timelineOf({ times, poses }: Path, poseNames: string[]): Timeline {
   return {
     parameters: [...times],
     poses,
-    poseNames: names.map(withoutFolder),
+    poseNames,
     extrapolated: times.length - 1 - poses[poses.length - 1],
   };
 }
@@ -87,6 +88,7 @@ export class SolverPage {
     byId('example').addEventListener('click', () => this.takeExample());
     byId('remove-all').addEventListener('click', () => {
       this.poses.clear();
+      showProblems([]);
       this.listChanged();
     });
     byId('cancel').addEventListener('click', () => this.cancel());
@@ -279,8 +281,7 @@ export class SolverPage {
 
   private showProgress({ stage, share }: Progress): void {
     if (this.readings > 0) return;
-    const finer = this.path ? 'Making the motion finer' : 'Computing the motion';
-    showWork(`${finer}: ${stage}`, share);
+    showWork(`${this.path ? 'Refining' : 'Computing'}: ${stage}`, share);
   }
 
   private showBusy(busy: boolean): void {
@@ -298,7 +299,10 @@ export class SolverPage {
     const isFirst = this.path === null;
     const time = this.timeline ? timeAt(this.timeline, this.player.place) : path.times[0];
     this.path = path;
-    this.timeline = timelineOf(path);
+    this.timeline = timelineOf(
+      path,
+      this.poses.list.map(({ name }) => name),
+    );
     mesh.shapes = path.shapes;
     mesh.triangles = path.indices;
     this.frame = new Float64Array(path.shapes[0].length);

@@ -23,7 +23,6 @@ const settlingTime = 300;
 
 export class Solving {
   private running: AbortController | null = null;
-  private timer = 0;
   /** The motion from the first pose to the last, which extrapolation goes on from. */
   private base: { poses: Pose[]; options: string; path: Path } | null = null;
 
@@ -38,23 +37,24 @@ export class Solving {
 
   /** Starts soon, and ends what is running now. */
   wish(wish: Wish, delay = settlingTime): void {
-    this.cancel();
-    this.timer = setTimeout(() => void this.run(wish), delay);
+    this.running?.abort();
+    const controller = new AbortController();
+    this.running = controller;
+    this.listener.onBusy(true);
+    setTimeout(() => {
+      if (this.running === controller) void this.run(wish, controller);
+    }, delay);
   }
 
   cancel(): void {
-    clearTimeout(this.timer);
     this.running?.abort();
     this.running = null;
     this.listener.onBusy(false);
   }
 
-  private async run(wish: Wish): Promise<void> {
+  private async run(wish: Wish, controller: AbortController): Promise<void> {
     const { listener } = this;
-    const controller = new AbortController();
     const { signal } = controller;
-    this.running = controller;
-    listener.onBusy(true);
     const isCurrent = () => this.running === controller;
     const onProgress = (progress: Progress) => {
       if (isCurrent()) listener.onProgress(progress);

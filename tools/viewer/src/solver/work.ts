@@ -4,6 +4,7 @@ import { byId } from '../dom';
 /** `share` is null where it is not known. */
 export function showWork(text: string, share: number | null): void {
   byId('work').hidden = false;
+  byId('stage').ariaBusy = 'true';
   const name = byId('stage-name');
   if (name.textContent !== text) name.textContent = text;
   const bar = byId<HTMLProgressElement>('share');
@@ -13,4 +14,5 @@ export function showWork(text: string, share: number | null): void {
 
 export function hideWork(): void {
   byId('work').hidden = true;
+  byId('stage').ariaBusy = 'false';
 }
