@@ -4,18 +4,29 @@ const inNode = typeof process === 'object' && Boolean(process.versions?.node);
 
 /** What the library refuses, or cannot do. */
 export class ShapespaceError extends Error {
+  name = 'ShapespaceError'; // bundlers shorten the class's own
+
   constructor({ message, option, fields }) {
     super(message);
-    this.name = new.target.name;
     if (option) this.option = option;
     if (fields) this.fields = fields;
   }
 }
-export class OptionsError extends ShapespaceError {}
-export class MeshError extends ShapespaceError {}
-export class MismatchError extends ShapespaceError {}
-export class FileError extends ShapespaceError {}
-export class SolverError extends ShapespaceError {}
+export class OptionsError extends ShapespaceError {
+  name = 'OptionsError';
+}
+export class MeshError extends ShapespaceError {
+  name = 'MeshError';
+}
+export class MismatchError extends ShapespaceError {
+  name = 'MismatchError';
+}
+export class FileError extends ShapespaceError {
+  name = 'FileError';
+}
+export class SolverError extends ShapespaceError {
+  name = 'SolverError';
+}
 
 const errorClasses = { OptionsError, MeshError, MismatchError, FileError, SolverError };
 
@@ -49,6 +60,7 @@ export class Shapespace {
   #generation = 0; // of workers: deformers live in one
   #deformers = 0;
   #lastCall = Promise.resolve();
+  #reject = null; // of the call that runs
 
   constructor(wasm, start) {
     this.#wasm = wasm;
@@ -106,6 +118,7 @@ export class Shapespace {
   close() {
     this.#worker?.terminate();
     this.#worker = null;
+    this.#reject?.(new SolverError({ message: 'closed before it was finished' }));
   }
 
   // Calls wait for those before them.
@@ -131,27 +144,28 @@ export class Shapespace {
     const worker = this.#worker;
     return new Promise((resolve, reject) => {
       const done = (settle, value) => {
+        this.#reject = null;
         signal?.removeEventListener('abort', abort);
         hear(worker, null);
         settle(value);
       };
       const abort = () => {
-        this.close();
         done(reject, signal.reason);
+        this.close();
       };
+      this.#reject = (error) => done(reject, error);
       signal?.addEventListener('abort', abort);
       hear(worker, {
         message({ progress, preview, result }) {
           if (progress) return onProgress?.(progress);
           if (preview) return onPreview?.(new Path(preview));
           if (!result.error) return done(resolve, result);
+          done(reject, new errorClasses[result.error.kind](result.error));
           if (result.error.fatal) this.close();
-          const { kind } = result.error;
-          return done(reject, new (errorClasses[kind] ?? ShapespaceError)(result.error));
         },
         error: (error) => {
-          this.close();
           done(reject, new SolverError({ message: `the worker has ended: ${error.message}` }));
+          this.close();
         },
       });
       worker.postMessage({ id: 0, name, args });

@@ -7,10 +7,9 @@ export * from './core.js';
 const inNode = typeof process === 'object' && Boolean(process.versions?.node);
 
 async function startWorker() {
-  const url = new URL('./worker.js', import.meta.url);
-  if (!inNode) return new Worker(url, { type: 'module' });
+  if (!inNode) return new Worker(new URL('./worker.js', import.meta.url), { type: 'module' });
   const { Worker: NodeWorker } = await import('node:worker_threads');
-  return new NodeWorker(url);
+  return new NodeWorker(new URL('./node-worker.js', import.meta.url));
 }
 
 async function fetchModule(url) {

@@ -14,7 +14,7 @@ cp "$project"/javascript/shapespace-module.{mjs,wasm} "$project/LICENSE" "$work/
 # The licences of what is compiled into the module.
 {
   cat "$project/NOTICES"
-  for licence in "$project"/build/wasm-libraries/licenses/* /usr/share/doc/emscripten/copyright; do
+  for licence in "$project"/build/wasm-libraries/licenses/* /usr/share/doc/{emscripten,libfast-float-dev}/copyright; do
     printf '\n\n%s\n\n' "== $(basename "$(dirname "$licence")")/$(basename "$licence")"
     cat "$licence"
   done

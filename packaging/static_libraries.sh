@@ -22,7 +22,7 @@ cp /usr/share/doc/libgif-dev/copyright "$prefix/licenses/giflib"
 # headers are copied.
 if [[ ${CMAKE_TOOLCHAIN_FILE-} ]]; then
   mkdir -p "$prefix"/{include,share/cmake}
-  cp -r /usr/include/{eigen3,nlohmann,stb,tiny_gltf.h,xxhash.h} "$prefix/include/"
+  cp -r /usr/include/{eigen3,fast_float,nlohmann,stb,tiny_gltf.h,xxhash.h} "$prefix/include/"
   cp -r /usr/share/eigen3 "$prefix/share/"
   cp -r /usr/share/cmake/nlohmann_json "$prefix/share/cmake/"
 fi

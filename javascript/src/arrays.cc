@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <regex>
 #include <utility>
 
 #include <shapespace/base/error.h>
@@ -35,6 +36,8 @@ class UploadedFiles {
     std::filesystem::remove_all(kFolder, ignored);
   }
 
+  static constexpr const char* kFolder = "/files";
+
   // Two files may have one name, but not one place.
   std::string Add(const std::string& name, const std::string& bytes) {
     const std::filesystem::path folder = std::filesystem::path(kFolder) / std::to_string(++count_);
@@ -45,7 +48,6 @@ class UploadedFiles {
   }
 
  private:
-  static constexpr const char* kFolder = "/files";
   int count_ = 0;
 };
 
@@ -135,7 +137,7 @@ val IndicesOf(const Connectivity& connectivity) {
 
 val FromStrings(const std::vector<std::string>& strings) {
   val array = val::array();
-  for (const std::string& string : strings) array.call<void>("push", string);
+  for (const std::string& string : strings) array.call<void>("push", WithoutFolder(string));
   return array;
 }
 
@@ -150,6 +152,11 @@ val FromPath(const Path& path) {
   result.set("names", FromStrings(path.pose_names));
   result.set("converged", path.converged);
   return result;
+}
+
+std::string WithoutFolder(const std::string& sentence) {
+  static const std::regex folder(std::string(UploadedFiles::kFolder) + "/[0-9]+/");
+  return std::regex_replace(sentence, folder, "");
 }
 
 val FromBytes(const std::string& bytes) {

@@ -32,10 +32,15 @@ val FromShape(const Shape& shape);
 val FromNumbers(const std::vector<double>& numbers);
 /// A Uint32Array with the corners of all triangles.
 val IndicesOf(const Connectivity& connectivity);
+/// Sentences and names of files, `WithoutFolder`.
 val FromStrings(const std::vector<std::string>& strings);
 
 /// {indices, shapes, times, poses, names, converged}: shapes as placed, in the user's unit.
 val FromPath(const Path& path);
+
+/// A sentence about a file by the name that it was given, without the folder in which it was
+/// meanwhile.
+std::string WithoutFolder(const std::string& sentence);
 
 /// The content of a file, as a Uint8Array.
 val FromBytes(const std::string& bytes);

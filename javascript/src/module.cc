@@ -72,7 +72,7 @@ class Events : public Progress {
 val ErrorOf(const std::string& kind, const Error& error) {
   val result = val::object();
   result.set("kind", kind);
-  result.set("message", std::string(error.what()));
+  result.set("message", WithoutFolder(error.what()));
   result.set("option", CamelCase(error.option()));
   return result;
 }

@@ -131,6 +131,14 @@ test('a call that is aborted ends, and others go on', async () => {
   });
 });
 
+test('what is closed ends its call, and can be called again', async () => {
+  const other = await load();
+  const solve = other.interpolate([sheet(100, 80, 0), sheet(100, 80, 3)], { onProgress: () => other.close() });
+  await assert.rejects(solve, { name: 'SolverError' });
+  assert.equal((await other.interpolate([flat, rolled], { shapes: 1 })).shapes.length, 3);
+  other.close();
+});
+
 test('files are read as the tools read them, and written', async () => {
   const text = (mesh) =>
     [...Array(mesh.positions.length / 3).keys()]
@@ -141,7 +149,7 @@ test('files are read as the tools read them, and written', async () => {
   // Two files may have one name.
   const files = [file('sheet.obj', flat), file('sheet.obj', rolled)];
   const { shapes, names } = await shapespace.read(files);
-  assert.equal(names.length, 2);
+  assert.deepEqual(names, ['sheet.obj', 'sheet.obj']);
   assert.ok(greatestDifference(shapes[1], rolled.positions) < 1e-12);
   const path = await shapespace.interpolate(files, { shapes: 3 });
   const [glb] = await shapespace.write(path, 'roll.glb', { duration: 2 });
@@ -176,6 +184,10 @@ test('what is wrong is refused with a sentence, by its kind', async () => {
       return true;
     });
   }
+  await assert.rejects(
+    shapespace.read([{ name: 'broken.obj', data: new TextEncoder().encode('v 1 2') }]),
+    (error) => error.message.startsWith('broken.obj:1'),
+  );
   await assert.rejects(
     shapespace.interpolate([flat, rolled], { maxIterations: -1 }),
     (error) => error.fields[0] === 'maxIterations',

@@ -68,19 +68,6 @@ function inline(wasm) {
   };
 }
 
-// The worker of the package also runs in Node, for which it waits at its top level. Only modules may.
-function withoutNode() {
-  const waiting = "(await import('node:worker_threads')).parentPort";
-  return {
-    name: 'without-node',
-    transform(code, id) {
-      if (!id.split('?')[0].endsWith('/javascript/worker.js')) return null;
-      if (!code.includes(waiting)) throw new Error(`${id} has no longer ${waiting}`);
-      return { code: code.replace(waiting, 'null'), map: null };
-    },
-  };
-}
-
 /** Of a page, which contains the module `wasm` if there is one. */
 export const config = (page, wasm) => ({
   configFile: false,
@@ -88,7 +75,7 @@ export const config = (page, wasm) => ({
   plugins: [inline(wasm)],
   esbuild: { charset: 'ascii', legalComments: 'none' },
   // In pages that are opened as files, browsers start no workers that are modules.
-  worker: { format: 'iife', plugins: () => [withoutNode()] },
+  worker: { format: 'iife' },
   build: {
     target: 'es2022',
     modulePreload: false,
