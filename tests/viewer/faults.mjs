@@ -61,7 +61,8 @@ export function namelessControls() {
   return [...document.querySelectorAll(controls)]
     .filter((element) => element.checkVisibility())
     .filter((element) => {
-      const label = element.getAttribute('aria-label') ?? element.labels?.[0]?.textContent;
+      const around = element.labels?.[0] ?? element.closest('label');
+      const label = element.getAttribute('aria-label') ?? around?.textContent;
       return !(label ?? element.textContent).trim();
     })
     .map((element) => `${element.tagName} ${element.id}`);
