@@ -1,7 +1,5 @@
 // What index.js offers, for any place of its files: docs in index.d.ts.
 
-const inNode = typeof process === 'object' && Boolean(process.versions?.node);
-
 /** What the library refuses, or cannot do. */
 export class ShapespaceError extends Error {
   name = 'ShapespaceError'; // bundlers shorten the class's own
@@ -101,41 +99,48 @@ export class Shapespace {
   deform(mesh, options = {}) {
     const { rest } = split(options);
     const key = ++this.#deformers;
-    let made = 0; // the worker in which it lives
+    let made = -1; // the worker in which it lives
     const make = async () => {
-      await this.#call('makeDeformer', [key, mesh, rest], {});
+      if (made === this.#generation) return;
+      await this.#exchange('makeDeformer', [key, mesh, rest], {});
       made = this.#generation;
     };
-    const update = async (handles, events = {}) => {
-      if (made !== this.#generation) await make();
-      return new Path(await this.#call('deform', [key, handles], events));
+    const update = async (handles, events = {}) =>
+      new Path(
+        await this.#enqueue(async () => {
+          await make();
+          return this.#exchange('deform', [key, handles], events);
+        }, events.signal),
+      );
+    const close = async () => {
+      if (made === this.#generation) await this.#call('dropDeformer', [key], {});
     };
-    const close = () =>
-      made === this.#generation ? this.#call('dropDeformer', [key], {}) : Promise.resolve();
-    return make().then(() => ({ update, close }));
+    return this.#enqueue(make).then(() => ({ update, close }));
   }
 
   close() {
     this.#worker?.terminate();
     this.#worker = null;
+    ++this.#generation;
     this.#reject?.(new SolverError({ message: 'closed before it was finished' }));
   }
 
-  // Calls wait for those before them.
   #call(name, args, events) {
-    const result = this.#lastCall.then(() => this.#run(name, args, events));
-    this.#lastCall = result.catch(() => {});
-    return result;
+    return this.#enqueue(() => this.#exchange(name, args, events), events.signal);
   }
 
-  async #run(name, args, events) {
-    events.signal?.throwIfAborted();
-    if (!this.#worker) {
-      this.#worker = await this.#start();
-      ++this.#generation;
-      await this.#exchange('load', [this.#wasm], {});
-    }
-    return this.#exchange(name, args, events);
+  // Runs what needs the worker after all that came before.
+  #enqueue(task, signal) {
+    const result = this.#lastCall.then(async () => {
+      signal?.throwIfAborted();
+      if (!this.#worker) {
+        this.#worker = await this.#start();
+        await this.#exchange('load', [this.#wasm], {});
+      }
+      return task();
+    });
+    this.#lastCall = result.catch(() => {});
+    return result;
   }
 
   // Sends a call and waits for its result. A worker that solves hears nothing, so what is aborted
@@ -156,7 +161,7 @@ export class Shapespace {
       this.#reject = (error) => done(reject, error);
       signal?.addEventListener('abort', abort);
       hear(worker, {
-        message({ progress, preview, result }) {
+        message: ({ progress, preview, result }) => {
           if (progress) return onProgress?.(progress);
           if (preview) return onPreview?.(new Path(preview));
           if (!result.error) return done(resolve, result);
@@ -168,14 +173,15 @@ export class Shapespace {
           this.close();
         },
       });
-      worker.postMessage({ id: 0, name, args });
+      worker.postMessage({ name, args });
     });
   }
 }
 
 // Sets what hears a worker's messages; null: nothing.
 function hear(worker, listener) {
-  if (inNode) {
+  const isOfNode = typeof worker.on === 'function';
+  if (isOfNode) {
     worker.removeAllListeners('message');
     worker.removeAllListeners('error');
     if (!listener) return worker.unref(); // an idle worker keeps no program from ending

@@ -124,8 +124,14 @@ test('a call that is aborted ends, and others go on', async () => {
   const later = shapespace.interpolate([flat, rolled], { shapes: 1 });
   await assert.rejects(solve, { name: 'AbortError' });
   assert.equal((await later).shapes.length, 3);
-  // Its worker is gone, and it is made again.
+  // Its worker is gone, and it is made again: also where nothing else has come between, and where the
+  // update waits already when the worker ends.
   assert.equal((await deformation.update([{ vertices: [0] }])).shapes.length, 6);
+  const second = new AbortController();
+  const stopped = shapespace.interpolate(fine, { signal: second.signal, onProgress: () => second.abort() });
+  const waiting = deformation.update([{ vertices: [0] }]);
+  await assert.rejects(stopped, { name: 'AbortError' });
+  assert.equal((await waiting).shapes.length, 6);
   await assert.rejects(shapespace.interpolate([flat, rolled], { signal: AbortSignal.abort() }), {
     name: 'AbortError',
   });

@@ -126,7 +126,7 @@ export class PoseSet {
   }
 
   private append(reading: Reading, i: number, file: MeshFile): void {
-    const pose = { name: withoutFolder(reading.names[i]), positions: reading.shapes[i], file };
+    const pose = { name: reading.names[i], positions: reading.shapes[i], file };
     this.list.push(pose);
     this.posesOf.set(file, [...(this.posesOf.get(file) ?? []), pose]);
   }
@@ -161,9 +161,4 @@ function hasLooks({ name, data }: MeshFile): boolean {
     if (data[i + 1] === t && data[i + 2] === space && (i === 0 || data[i - 1] === newline)) return true;
   }
   return false;
-}
-
-/** Names of the library begin with the folder in which it has the files. */
-export function withoutFolder(text: string): string {
-  return text.replaceAll(/\/files\/\d+\//g, '');
 }

@@ -1,7 +1,6 @@
 // Sentences about what went wrong, over the picture until they are closed.
 import { byId } from '../dom';
 import { ShapespaceError, type MeshOptions } from './library';
-import { withoutFolder } from './pose_set';
 
 export interface Remedy {
   text: string;
@@ -23,7 +22,7 @@ const words: [RegExp, string][] = [
 /** A sentence of the library, or of the browser, as it is shown. */
 export function sentenceOf(error: Error): string {
   if (!(error instanceof ShapespaceError)) return `That has failed: ${error.message}.`;
-  const text = words.reduce((so, [from, to]) => so.replace(from, to), withoutFolder(error.message));
+  const text = words.reduce((so, [from, to]) => so.replace(from, to), error.message);
   const remedies = new Set<string>();
   const lines = text.split('\n').filter((line) => {
     // Several findings may have one remedy, which is read once.
