@@ -1,6 +1,6 @@
-# Compiles for WebAssembly with Debian's emscripten; programs are run in Node.
+# Compiles for WebAssembly with Debian's emscripten, which needs NODE_PATH=/usr/share/nodejs in the
+# environment (./dev wasm sets it); programs are run in Node.
 set(NODE_JS_EXECUTABLE /usr/bin/node)
-set(ENV{NODE_PATH} /usr/share/nodejs)
 include(/usr/share/emscripten/cmake/Modules/Platform/Emscripten.cmake)
 set(CMAKE_CROSSCOMPILING_EMULATOR ${NODE_JS_EXECUTABLE} --no-experimental-fetch)
 # Nothing of this system is taken but what is installed under CMAKE_PREFIX_PATH.

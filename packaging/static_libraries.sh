@@ -5,8 +5,10 @@
 # PREFIX/licenses. Debian's own packages do not serve for a wheel: most have no static library that a
 # Python module can link, shared ones would meet Blender's Embree and TBB in one process, and Ceres links
 # SuiteSparse, parts of which are under the GPL. Here it has Eigen's sparse solver alone. giflib and
-# zlib are Debian's. Needs g++, cmake, ninja-build, make, xz-utils, libeigen3-dev, libgif-dev and
-# zlib1g-dev, and network. What is built already is not built again.
+# zlib are Debian's, unless they are named too. For another system than this one, CMAKE_TOOLCHAIN_FILE in
+# the environment names what CMake needs (cmake/wasm.cmake). Needs g++, cmake, ninja-build, make,
+# xz-utils, libeigen3-dev, libgif-dev and zlib1g-dev, and network. What is built already is not built
+# again.
 set -euo pipefail
 
 prefix=$(mkdir -p "${1:?static_libraries.sh: say the folder to install into}" && cd "$1" && pwd)

@@ -16,11 +16,10 @@ namespace {
 
 bool IsMissing(const val& value) { return value.isUndefined() || value.isNull(); }
 
-std::vector<double> ToNumbers(const val& numbers, const std::string& name) {
-  if (!numbers.isArray() && !val::global("ArrayBuffer").call<bool>("isView", numbers)) {
-    throw InvalidOptions(name, "must be an array of numbers");
-  }
-  return emscripten::convertJSArrayToNumberVector<double>(numbers);
+// A copy of an array as one of JavaScript's, of the class `name`.
+template <typename Number>
+val TypedArray(const char* name, size_t count, const Number* numbers) {
+  return val::global(name).new_(val(emscripten::typed_memory_view(count, numbers)));
 }
 
 // Files lie in a folder of their own, which is in memory.
@@ -72,6 +71,13 @@ Eigen::Matrix3Xi ToTriangles(const val& indices, const std::string& name) {
 
 }  // namespace
 
+std::vector<double> ToNumbers(const val& numbers, const std::string& name) {
+  if (!numbers.isArray() && !val::global("ArrayBuffer").call<bool>("isView", numbers)) {
+    throw InvalidOptions(name, "must be an array of numbers");
+  }
+  return emscripten::convertJSArrayToNumberVector<double>(numbers);
+}
+
 Shape ToShape(const val& positions, const std::string& name) {
   const std::vector<double> numbers = ToNumbers(positions, name);
   if (numbers.size() % 3 != 0) {
@@ -118,21 +124,15 @@ Poses ToPoses(const val& poses, const ReadOptions& options) {
   return MakePoses(std::move(soups), options);
 }
 
-val FromShape(const Shape& shape) {
-  return val::global("Float64Array")
-      .new_(val(emscripten::typed_memory_view(static_cast<size_t>(shape.size()), shape.data())));
-}
+val FromShape(const Shape& shape) { return TypedArray("Float64Array", shape.size(), shape.data()); }
 
 val FromNumbers(const std::vector<double>& numbers) {
-  return val::global("Float64Array")
-      .new_(val(emscripten::typed_memory_view(numbers.size(), numbers.data())));
+  return TypedArray("Float64Array", numbers.size(), numbers.data());
 }
 
 val IndicesOf(const Connectivity& connectivity) {
   const Eigen::Matrix3Xi& triangles = connectivity.Triangles();
-  return val::global("Uint32Array")
-      .new_(val(
-          emscripten::typed_memory_view(static_cast<size_t>(triangles.size()), triangles.data())));
+  return TypedArray("Uint32Array", triangles.size(), triangles.data());
 }
 
 val FromStrings(const std::vector<std::string>& strings) {
@@ -160,9 +160,8 @@ std::string WithoutFolder(const std::string& sentence) {
 }
 
 val FromBytes(const std::string& bytes) {
-  return val::global("Uint8Array")
-      .new_(val(emscripten::typed_memory_view(
-          bytes.size(), reinterpret_cast<const std::uint8_t*>(bytes.data()))));
+  return TypedArray("Uint8Array", bytes.size(),
+                    reinterpret_cast<const std::uint8_t*>(bytes.data()));
 }
 
 std::string ToBytes(const val& bytes, const std::string& name) {

@@ -17,6 +17,8 @@ namespace shapespace::javascript {
 
 using emscripten::val;
 
+/// \throw InvalidOptions naming `name`: no array of numbers.
+std::vector<double> ToNumbers(const val& numbers, const std::string& name);
 /// \throw InvalidOptions naming `name`: no array of numbers, or not as many as 3 n.
 Shape ToShape(const val& positions, const std::string& name);
 std::vector<int> ToIntegers(const val& numbers, const std::string& name);

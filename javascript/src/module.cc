@@ -85,11 +85,8 @@ val Guarded(const std::function<val()>& body) {
   } catch (const InvalidOptions& e) {
     std::vector<std::string> fields;
     for (const std::string& field : e.fields()) fields.push_back(CamelCase(field));
-    std::string message;
-    for (const std::string& field : fields) message += (message.empty() ? "" : ", ") + field;
-    error = ErrorOf("OptionsError", e);
+    error = ErrorOf("OptionsError", InvalidOptions(fields, e.problem()));
     error.set("fields", FromStrings(fields));
-    error.set("message", message + (message.empty() ? "" : ": ") + e.problem());
   } catch (const FileError& e) {
     error = ErrorOf("FileError", e);
   } catch (const MismatchError& e) {

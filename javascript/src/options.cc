@@ -26,10 +26,7 @@ void RefuseUnknown(const std::string& name, const std::vector<std::string>& know
 
 void Value<std::vector<double>>::Set(const val& given, const std::string& name,
                                      std::vector<double>* value) {
-  if (!given.isArray() && !val::global("ArrayBuffer").call<bool>("isView", given)) {
-    Refuse(name, "an array of numbers");
-  }
-  *value = emscripten::convertJSArrayToNumberVector<double>(given);
+  *value = ToNumbers(given, name);
 }
 
 void Value<Eigen::VectorXd>::Set(const val& given, const std::string& name,

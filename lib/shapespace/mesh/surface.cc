@@ -28,18 +28,23 @@ Shape VertexNormals(const Connectivity& connectivity, const Shape& shape) {
   return normals;
 }
 
+namespace {
+
+internal::BoxTree BoxesOf(const Eigen::Matrix3Xi& triangles, const Shape& shape) {
+  const Shape a = shape(Eigen::all, triangles.row(0)), b = shape(Eigen::all, triangles.row(1)),
+              c = shape(Eigen::all, triangles.row(2));
+  return {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
+}
+
+}  // namespace
+
 struct MeshSurface::Scene {
   Scene(std::shared_ptr<const Connectivity> the_connectivity, const Shape& the_shape)
       : connectivity(std::move(the_connectivity)),
         shape(the_shape),
         normals(TriangleNormals(*connectivity, shape)),
-        boxes(Corners(0).cwiseMin(Corners(1)).cwiseMin(Corners(2)),
-              Corners(0).cwiseMax(Corners(1)).cwiseMax(Corners(2))) {}
+        boxes(BoxesOf(connectivity->Triangles(), shape)) {}
 
-  // Of all triangles.
-  Eigen::Matrix3Xd Corners(int k) const {
-    return shape(Eigen::all, connectivity->Triangles().row(k));
-  }
   Eigen::Vector3d Corner(int f, int k) const { return shape.col(connectivity->Triangles()(k, f)); }
 
   const std::shared_ptr<const Connectivity> connectivity;

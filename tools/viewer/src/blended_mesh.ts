@@ -4,12 +4,10 @@ import {
   BufferGeometry,
   Color,
   DataTexture,
-  DoubleSide,
   Group,
   LineBasicMaterial,
   LineSegments,
   Mesh,
-  MeshBasicMaterial,
   MeshDepthMaterial,
   MeshStandardMaterial,
   RGBADepthPacking,
@@ -21,7 +19,7 @@ import {
 import { declarations } from './blend_shader';
 import { Marks } from './marks';
 import { isFaceted, vertexNormals } from './normals';
-import { back, clay } from './material';
+import { back, clay, surfaceMaterial, wireMaterial } from './material';
 import { markColour, rampColour, type Triple } from './ramp';
 import type { Body, Skin } from './scene_data';
 import type { Shown } from './stage';
@@ -93,13 +91,8 @@ export class BlendedMesh extends Group implements Shown {
       const parts = body.skin?.parts ?? [{ start: 0, count: body.triangles.length }];
       const materials = parts.map(({ start, count }, i) => {
         this.geometry.addGroup(start, count, i);
-        const material = new MeshStandardMaterial({
-          flatShading,
-          side: DoubleSide,
-          roughness: 0.75,
-          polygonOffsetFactor: 1,
-          polygonOffsetUnits: 1,
-        });
+        const material = surfaceMaterial();
+        material.flatShading = flatShading;
         return this.patch(material);
       });
       if (body.skin) this.geometry.setAttribute('uv', new BufferAttribute(body.skin.uv, 2));
@@ -108,10 +101,7 @@ export class BlendedMesh extends Group implements Shown {
       this.surface.customDepthMaterial = this.patch(
         new MeshDepthMaterial({ depthPacking: RGBADepthPacking }),
       );
-      const lines = new MeshBasicMaterial({ color: 0x1b2430, wireframe: true });
-      lines.transparent = true;
-      lines.opacity = 0.4;
-      this.wires = new Mesh(this.geometry, this.patch(lines));
+      this.wires = new Mesh(this.geometry, this.patch(wireMaterial()));
       this.wires.visible = false;
       this.add(this.wires);
     }

@@ -10,7 +10,21 @@
 #include <embree4/rtcore.h>
 #endif
 
+#include <shapespace/base/error.h>
+
 namespace shapespace::internal {
+
+/// \throw Error with one of two sentences if the device has failed since it was asked before.
+inline void CheckEmbree(RTCDevice device, const char* no_memory, const char* failure) {
+  switch (rtcGetDeviceError(device)) {
+    case RTC_ERROR_NONE:
+      return;
+    case RTC_ERROR_OUT_OF_MEMORY:
+      throw Error(no_memory);
+    default:
+      throw Error(failure);
+  }
+}
 
 /// Finds the first hit of a ray; rays of consecutive calls are expected to be close together.
 inline void EmbreeIntersect(RTCScene scene, RTCRayHit* ray) {

@@ -12,15 +12,9 @@ namespace {
 
 constexpr float kRounding = std::numeric_limits<float>::epsilon();
 
-void CheckEmbreeTree(RTCDevice device) {
-  switch (rtcGetDeviceError(device)) {
-    case RTC_ERROR_NONE:
-      return;
-    case RTC_ERROR_OUT_OF_MEMORY:
-      throw Error("not enough memory for Embree's search tree");
-    default:
-      throw Error("Embree, which searches for what is near, failed");
-  }
+void CheckTree(RTCDevice device) {
+  CheckEmbree(device, "not enough memory for Embree's search tree",
+              "Embree, which searches for what is near, failed");
 }
 
 }  // namespace
@@ -101,7 +95,7 @@ BoxTree::BoxTree(const Eigen::Matrix3Xd& low, const Eigen::Matrix3Xd& high) {
   if (tree->device == nullptr) throw Error("Embree cannot start on this machine");
   tree->scene = rtcNewScene(tree->device);
   RTCGeometry geometry = rtcNewGeometry(tree->device, RTC_GEOMETRY_TYPE_USER);
-  CheckEmbreeTree(tree->device);
+  CheckTree(tree->device);
   rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(low.cols()));
   rtcSetGeometryUserData(geometry, tree.get());
   rtcSetGeometryBoundsFunction(geometry, &Tree::Bounds, nullptr);
@@ -110,7 +104,7 @@ BoxTree::BoxTree(const Eigen::Matrix3Xd& low, const Eigen::Matrix3Xd& high) {
   rtcAttachGeometry(tree->scene, geometry);
   rtcReleaseGeometry(geometry);
   rtcCommitScene(tree->scene);
-  CheckEmbreeTree(tree->device);
+  CheckTree(tree->device);
   tree_ = std::move(tree);
 }
 
@@ -132,7 +126,7 @@ void BoxTree::VisitNear(const Eigen::Vector3d& point, double within,
 void BoxTree::VisitPairs(const std::function<void(int first, int second)>& visit) const {
   Tree::Pairs query{&visit};
   rtcCollide(tree_->scene, tree_->scene, &Tree::OnPairs, &query);
-  CheckEmbreeTree(tree_->device);
+  CheckTree(tree_->device);
 }
 
 }  // namespace shapespace::internal

@@ -16,15 +16,9 @@ namespace {
 // Order in which AddTubes attaches its two geometries.
 constexpr unsigned kTubes = 0;
 
-void CheckEmbree(RTCDevice device) {
-  switch (rtcGetDeviceError(device)) {
-    case RTC_ERROR_NONE:
-      return;
-    case RTC_ERROR_OUT_OF_MEMORY:
-      throw Error("picture: not enough memory for the ray tracer; draw a coarser mesh");
-    default:
-      throw Error("picture: the ray tracer (Embree) failed");
-  }
+void CheckTracer(RTCDevice device) {
+  CheckEmbree(device, "picture: not enough memory for the ray tracer; draw a coarser mesh",
+              "picture: the ray tracer (Embree) failed");
 }
 
 // A new buffer of `geometry`, owned by Embree, which pads it for vector loads.
@@ -33,7 +27,7 @@ T* NewBuffer(RTCDevice device, RTCGeometry geometry, RTCBufferType type, RTCForm
              size_t stride, size_t count) {
   void* buffer = rtcSetNewGeometryBuffer(geometry, type, 0, format, stride, count);
   if (buffer == nullptr) {
-    CheckEmbree(device);
+    CheckTracer(device);
     throw Error("picture: the ray tracer (Embree) gave no buffer");
   }
   return static_cast<T*>(buffer);
@@ -43,7 +37,7 @@ using Geometry = std::unique_ptr<RTCGeometryTy, void (*)(RTCGeometry)>;
 
 Geometry NewGeometry(RTCDevice device, RTCGeometryType type) {
   Geometry geometry(rtcNewGeometry(device, type), rtcReleaseGeometry);
-  if (!geometry) CheckEmbree(device);
+  if (!geometry) CheckTracer(device);
   return geometry;
 }
 
@@ -99,7 +93,7 @@ RayScene::RayScene(const RayTracer& tracer, const Shape& shape, Eigen::VectorXf 
   scene_.reset(rtcNewScene(device), [](RTCScene scene) {
     if (scene != nullptr) rtcReleaseScene(scene);
   });
-  if (!scene_) CheckEmbree(device);
+  if (!scene_) CheckTracer(device);
   // Robust mode: no ray passes between two adjacent triangles, which would show specks of the
   // inside.
   rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
@@ -109,7 +103,7 @@ RayScene::RayScene(const RayTracer& tracer, const Shape& shape, Eigen::VectorXf 
     AddTriangles(shape);
   }
   rtcCommitScene(scene_.get());
-  CheckEmbree(device);
+  CheckTracer(device);
 }
 
 void RayScene::AddTriangles(const Shape& shape) {

@@ -2,16 +2,15 @@
 import {
   BufferAttribute,
   BufferGeometry,
-  DoubleSide,
   Group,
   Mesh,
-  MeshBasicMaterial,
-  MeshStandardMaterial,
+  type MeshBasicMaterial,
+  type MeshStandardMaterial,
   Sphere,
   Vector3,
   type Color,
 } from 'three';
-import { back, clay } from '../material';
+import { back, clay, surfaceMaterial, wireMaterial } from '../material';
 import { isFaceted } from '../normals';
 import type { Body } from '../scene_data';
 import type { Shown } from '../stage';
@@ -76,13 +75,8 @@ export class LiveMesh extends Group implements Shown {
 
   constructor(indices: Uint32Array, shapes: Float64Array[]) {
     super();
-    const material = new MeshStandardMaterial({
-      side: DoubleSide,
-      vertexColors: true,
-      roughness: 0.75,
-      polygonOffsetFactor: 1,
-      polygonOffsetUnits: 1,
-    });
+    const material = surfaceMaterial();
+    material.vertexColors = true;
     material.onBeforeCompile = (shader) => {
       shader.uniforms.backColour = { value: back };
       shader.fragmentShader = shader.fragmentShader
@@ -92,12 +86,9 @@ export class LiveMesh extends Group implements Shown {
           '#include <color_fragment>\nif (!gl_FrontFacing) diffuseColor.rgb = backColour;',
         );
     };
-    const lines = new MeshBasicMaterial({ color: 0x1b2430, wireframe: true });
-    lines.transparent = true;
-    lines.opacity = 0.4;
     this.surface = new Mesh(this.geometry, material);
     this.surface.castShadow = true;
-    this.wires = new Mesh(this.geometry, lines);
+    this.wires = new Mesh(this.geometry, wireMaterial());
     this.wires.visible = false;
     for (const mesh of [this.surface, this.wires]) mesh.frustumCulled = false;
     this.add(this.surface, this.wires);
