@@ -71,7 +71,7 @@ Poses ReadMesh(const std::string& file) {
 
 // What a page calls a file.
 std::string NameOnPage(const std::string& file) {
-  return file == "-" ? "stdin" : std::filesystem::path(file).filename().string();
+  return file == "-" ? "stdin" : std::filesystem::u8path(file).filename().u8string();
 }
 
 void Run(const std::vector<std::string>& files) {

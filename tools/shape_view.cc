@@ -69,18 +69,18 @@ std::string OutputFromFlag(const std::vector<std::string>& files) {
   }
   std::string name;
   for (const std::string& file : files) {
-    name += (name.empty() ? "" : "_and_") + std::filesystem::path(file).stem().string();
+    name += (name.empty() ? "" : "_and_") + std::filesystem::u8path(file).stem().u8string();
   }
   return name + ".html";
 }
 
 // The name of a file on the page: with its folder only where the other file has the same name.
 std::string NameOf(const std::string& file, const std::vector<std::string>& files) {
-  const auto name = [](const std::string& of) { return std::filesystem::path(of).filename(); };
+  const auto name = [](const std::string& of) { return std::filesystem::u8path(of).filename(); };
   const auto same = std::count_if(files.begin(), files.end(), [&](const std::string& other) {
     return name(other) == name(file);
   });
-  return same > 1 ? file : name(file).string();
+  return same > 1 ? file : name(file).u8string();
 }
 
 // Its vertices have the numbers that all tools give them. A mesh that a solver would refuse,

@@ -1,9 +1,5 @@
 #include "support/console.h"
 
-#include <poll.h>
-#include <sys/ioctl.h>
-#include <unistd.h>
-
 #include <atomic>
 #include <iostream>
 #include <limits>
@@ -12,6 +8,7 @@
 
 #include <shapespace/base/internal/printable.h>
 #include <shapespace/base/internal/stopwatch.h>
+#include <shapespace/base/internal/system.h>
 
 namespace shapespace::tools {
 namespace {
@@ -20,7 +17,7 @@ namespace {
 constexpr double kTerminalPause = 0.05, kPause = 10, kProgramPause = 0.1;
 
 struct Console {
-  const bool terminal = isatty(STDERR_FILENO) != 0;
+  const bool terminal = internal::TerminalWidth() > 0;
   const internal::Stopwatch stopwatch = {};
   double last = terminal ? -kTerminalPause : 0;  // time of the last line of progress
   std::string line;                              // the last line of progress
@@ -57,12 +54,6 @@ class EscapingBuffer : public std::streambuf {
   std::ostream& to_;
 };
 
-size_t TerminalWidth() {
-  winsize size = {};
-  constexpr size_t kUsual = 80;
-  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : kUsual;
-}
-
 }  // namespace
 
 std::ostream& Out() {
@@ -81,11 +72,6 @@ std::ostream& Err() {
   static EscapingBuffer buffer(std::cerr);
   static std::ostream stream(&buffer);
   return stream;
-}
-
-bool StderrTakesText() {
-  pollfd error = {STDERR_FILENO, POLLOUT, 0};
-  return poll(&error, 1, 0) == 1 && (error.revents & POLLOUT) != 0;
 }
 
 void Complain(const std::string& message) {
@@ -125,7 +111,8 @@ void ShowProgress(const std::string& line, std::optional<double> share) {
     return;
   }
   // A line that wraps could not be cleared.
-  std::cerr << "\r\033[K" + internal::Printable(line).substr(0, TerminalWidth() - 1) << std::flush;
+  std::cerr << "\r\033[K" + internal::Printable(line).substr(0, internal::TerminalWidth() - 1)
+            << std::flush;
   console.shown = true;
 }
 

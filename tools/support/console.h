@@ -16,10 +16,6 @@ void ResultsToStderr();
 /// The stream for everything else: stderr.
 std::ostream& Err();
 
-/// Whether stderr takes text at once: not a terminal that Ctrl-S has stopped, or a pipe that nobody
-/// reads.
-bool StderrTakesText();
-
 /// Prints an error to stderr, after the program's name, without ending the program; the exit code
 /// will be 1.
 void Complain(const std::string& message);

@@ -32,7 +32,7 @@ std::string ArgumentOf(const std::string& file) {
 
 // The file's name, without what has a meaning in --output.
 std::string StemOf(const std::string& file) {
-  std::string stem = std::filesystem::path(file).stem().string();
+  std::string stem = std::filesystem::u8path(file).stem().u8string();
   std::replace_if(
       stem.begin(), stem.end(), [](char c) { return c == ',' || c == '%'; }, '_');
   return stem[0] == '-' ? "_" + stem : stem;

@@ -35,8 +35,8 @@ void CheckNothingIsOverwritten(const std::vector<std::string>& inputs,
   constexpr std::int64_t kMaxNames = 20000;
   const auto key = [](const std::string& file) {
     std::error_code error;  // such as a cycle of links; opening the file will report it
-    const fs::path path = fs::weakly_canonical(fs::absolute(file), error);
-    return error ? file : path.string();
+    const fs::path path = fs::weakly_canonical(fs::absolute(fs::u8path(file)), error);
+    return error ? file : path.u8string();
   };
   std::map<std::string, std::string> read, written;  // by key: the name on the command line
   for (const std::string& input : inputs) read.emplace(key(input), input);
@@ -65,17 +65,19 @@ void CheckCanBeWritten(const std::string& file) {
   namespace fs = std::filesystem;
   if (file == "-") return;
   std::error_code error;
-  if (fs::is_directory(file, error)) throw FileError(file + ": cannot be written: it is a folder");
-  fs::path folder = fs::absolute(file).parent_path();
+  if (fs::is_directory(fs::u8path(file), error))
+    throw FileError(file + ": cannot be written: it is a folder");
+  fs::path folder = fs::absolute(fs::u8path(file)).parent_path();
   while (!fs::exists(folder, error) && folder.has_relative_path()) folder = folder.parent_path();
   if (!fs::is_directory(folder, error)) {
-    throw FileError(file + ": cannot be written: " + folder.string() + " is not a folder");
+    throw FileError(file + ": cannot be written: " + folder.u8string() + " is not a folder");
   }
   // Tried, because permissions do not tell everything: /proc takes no file from anybody.
-  std::string trial = (folder / ".shapespace-XXXXXX").string();
+  std::string trial = (folder / ".shapespace-XXXXXX").u8string();
   const int descriptor = mkstemp(trial.data());
   if (descriptor < 0) {
-    throw FileError(file + ": cannot be written: " + folder.string() + ": " + std::strerror(errno));
+    throw FileError(file + ": cannot be written: " + folder.u8string() + ": " +
+                    std::strerror(errno));
   }
   close(descriptor);
   unlink(trial.c_str());
@@ -103,7 +105,7 @@ std::string Provenance(const char* program, const std::vector<std::string>& file
   std::string provenance = std::string(program) + " " SHAPESPACE_VERSION ":";
   for (const std::string& file : files) {
     const std::string name =
-        file == "-" ? "stdin" : std::filesystem::path(file).filename().string();
+        file == "-" ? "stdin" : std::filesystem::u8path(file).filename().u8string();
     const bool has_blanks = name.find(' ') != name.npos;
     provenance += has_blanks ? " '" + name + "'" : " " + name;
   }

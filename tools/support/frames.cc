@@ -50,7 +50,7 @@ void WriteFramesAndTell(const std::string& pattern, const std::vector<Shape>& sh
 void TellFrames(const std::string& pattern, int count) {
   Out() << "wrote " << FirstToLast(pattern, 0, count - 1) << '\n';
   int end = count;
-  while (std::filesystem::exists(FrameName(pattern, end))) ++end;
+  while (std::filesystem::exists(std::filesystem::u8path(FrameName(pattern, end)))) ++end;
   if (end == count) return;
   Note(
       FirstToLast(pattern, count, end - 1),

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include <shapespace/base/internal/atomic_file.h>
+#include <shapespace/base/internal/system.h>
 
 namespace shapespace::tools {
 namespace {
@@ -65,14 +66,7 @@ void HandleInterrupts(const std::function<void()>& before_the_end) {
   TheState().before_the_end = before_the_end;
   sem_init(&came, 0, 0);
   std::thread(Listen).detach();
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-    struct sigaction action = {};
-    sigaction(signal, nullptr, &action);
-    if (action.sa_handler == SIG_IGN) continue;  // nohup, or a background job of a script
-    action.sa_handler = Receive;
-    action.sa_flags = SA_RESTART;
-    sigaction(signal, &action, nullptr);
-  }
+  internal::HandleEndingSignals(Receive);
 }
 
 FirstInterruptWaits::FirstInterruptWaits(const std::function<void()>& notice) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include <shapespace/base/internal/system.h>
+
 #include "support/console.h"
 #include "support/files.h"
 
@@ -30,7 +32,7 @@ SolveProgress::SolveProgress(const std::vector<std::string>& outputs, std::strin
   for (const std::string& output : outputs) {
     if (!IsPathFile(output)) continue;
     waits_.emplace([output] {
-      if (!StderrTakesText()) return;
+      if (!internal::StderrTakesText()) return;
       Err() << "stopping: writing the best path so far to " + output +
                    "; Ctrl-C again ends immediately\n";
     });

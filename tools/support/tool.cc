@@ -1,9 +1,5 @@
 #include "support/tool.h"
 
-#include <dlfcn.h>
-#include <fcntl.h>
-
-#include <csignal>
 #include <cstdio>
 #include <iostream>
 
@@ -11,6 +7,7 @@
 #include <glog/logging.h>
 
 #include <shapespace/base/error.h>
+#include <shapespace/base/internal/system.h>
 #include <shapespace/base/parallel.h>
 
 #include "support/command_line.h"
@@ -39,8 +36,9 @@ std::vector<std::string> GroupsOf(const Program& program) {
 // are of no use. Without OpenBLAS, or if it is built with OpenMP, there is nothing to end.
 void EndThreadsOfBlas() {
   const auto limit =
-      reinterpret_cast<void (*)(int)>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"));
-  const auto end = reinterpret_cast<int (*)()>(dlsym(RTLD_DEFAULT, "blas_thread_shutdown_"));
+      reinterpret_cast<void (*)(int)>(internal::FunctionOfProgram("openblas_set_num_threads"));
+  const auto end =
+      reinterpret_cast<int (*)()>(internal::FunctionOfProgram("blas_thread_shutdown_"));
   if (limit == nullptr || end == nullptr) return;
   limit(1);  // else the next call would start them again
   end();
@@ -102,17 +100,6 @@ void NamingFlags(const FlagNames& names, const std::function<void()>& body) {
 
 namespace {
 
-// Opens those of stdin, stdout and stderr that are closed, such that every use fails as before. The
-// first file that is written would have their number otherwise, and get the messages.
-void KeepStandardStreams() {
-  for (const int stream : {0, 1, 2}) {
-    if (fcntl(stream, F_GETFD) >= 0) continue;
-    const int got =
-        open("/dev/null", stream == 0 ? O_WRONLY : O_RDONLY);  // the lowest that is free
-    if (got < 0) return;
-  }
-}
-
 void FlushStdout() {
   if (!std::cout.flush() || std::fflush(stdout) != 0) {
     throw FileError("stdout: writing failed (is the disk full?)");
@@ -142,12 +129,11 @@ void Perform(const Program& program, const std::vector<std::string>& arguments,
 
 int RunTool(int argc, char** argv, const Program& program,
             const std::function<void(const std::vector<std::string>& arguments)>& body) {
-  KeepStandardStreams();
-  std::signal(SIGXFSZ, SIG_IGN);  // a file beyond `ulimit -f` is an error as on a full disk
+  internal::PrepareProcess();
   EndThreadsOfBlas();
   SetProgramName(program.name);
   HandleInterrupts([] {
-    if (StderrTakesText()) ClearProgress();
+    if (internal::StderrTakesText()) ClearProgress();
   });
   google::InitGoogleLogging(argv[0]);
   FLAGS_logtostderr = true;

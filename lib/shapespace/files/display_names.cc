@@ -18,7 +18,7 @@ bool IsMeshFile(const std::string& name) {
 }  // namespace
 
 std::string DisplayName(const std::string& name) {
-  return IsMeshFile(name) ? std::filesystem::path(name).stem().string() : name;
+  return IsMeshFile(name) ? std::filesystem::u8path(name).stem().u8string() : name;
 }
 
 std::vector<std::string> DisplayNames(const std::vector<std::string>& names) {

@@ -70,7 +70,7 @@ class Writer {
       case PathOutput::Kind::kPage:
         WritePage(file_, options_.page_template,
                   {PagePath{&path_,
-                            std::filesystem::path(file_).stem().string(),
+                            std::filesystem::u8path(file_).stem().u8string(),
                             {},
                             options_.gltf.allow_outside_files}},
                   {options_.film_strip.up, options_.film_strip.view}, &summary_.warnings);

@@ -103,7 +103,7 @@ PageModes PageOf(const ShapeModel& model, const std::string& file, const Regress
     page.intercept = regression->intercept;
     page.slopes = regression->slopes;
   }
-  const std::string name = std::filesystem::path(file).filename().string();
+  const std::string name = std::filesystem::u8path(file).filename().u8string();
   page.name = name.empty() ? "modes" : name;
   page.file = file.empty() ? "MODES_FILE" : file;
   page.vertex_colours = modes.appearance.vertex_colours;

@@ -1,6 +1,5 @@
 #include <shapespace/base/internal/atomic_file.h>
 
-#include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -13,6 +12,7 @@
 
 #include <shapespace/base/detail/file_buffer.h>
 #include <shapespace/base/error.h>
+#include <shapespace/base/internal/system.h>
 
 namespace shapespace::internal {
 namespace {
@@ -40,22 +40,20 @@ std::string RandomName(const std::string& file) {
   return name;
 }
 
-// Creates a file beside `file` and opens it for writing. Whatever has its name already, a link in
-// particular, is left alone: in a folder where others may write, it could lead anywhere.
+// Creates a file beside `file` and opens it for writing. In a folder where others may write, a file
+// that is there already could lead anywhere.
 // \throw FileError
 std::unique_ptr<internal::FileBuffer> CreateBeside(const std::string& file, std::string* name) {
   constexpr int kMaxAttempts = 100;
-  constexpr mode_t kPermissions = 0666;  // less those of the umask, as for all new files
   for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
     *name = RandomName(file);
-    const int descriptor =
-        open(name->c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kPermissions);
+    const int descriptor = CreateNewFile(name->c_str());
     if (descriptor >= 0) {
       try {
         return std::make_unique<internal::FileBuffer>(descriptor);
       } catch (...) {  // no memory
         close(descriptor);
-        unlink(name->c_str());
+        RemoveFile(name->c_str());
         throw;
       }
     }
@@ -68,7 +66,10 @@ std::unique_ptr<internal::FileBuffer> CreateBeside(const std::string& file, std:
 }  // namespace
 
 void WriteFileAtomically(const std::string& file, const std::function<void(std::ostream&)>& body) {
-  const fs::path target(file);
+  if (const std::string problem = ProblemWithName(file); !problem.empty()) {
+    throw FileError(file + ": " + problem);
+  }
+  const fs::path target = fs::u8path(file);
   std::error_code error;
   if (target.has_parent_path()) fs::create_directories(target.parent_path(), error);
   if (error) throw FileError(file + ": cannot make its folder: " + error.message(), error);
@@ -82,7 +83,7 @@ void WriteFileAtomically(const std::string& file, const std::function<void(std::
     try {
       temporaries.insert(temporary);
     } catch (...) {  // no memory
-      unlink(temporary.c_str());
+      RemoveFile(temporary.c_str());
       throw;
     }
   }
@@ -96,12 +97,12 @@ void WriteFileAtomically(const std::string& file, const std::function<void(std::
     }
     if (!stream) throw FileError(file + ": writing failed");
     const std::lock_guard<std::mutex> lock(mutex);
-    fs::rename(temporary, target, error);
+    fs::rename(fs::u8path(temporary), target, error);
     if (error) throw FileError(file + ": cannot be replaced: " + error.message(), error);
     temporaries.erase(temporary);
   } catch (...) {
     const std::lock_guard<std::mutex> lock(mutex);
-    unlink(temporary.c_str());  // takes no memory, which may be what is missing
+    RemoveFile(temporary.c_str());  // takes no memory, which may be what is missing
     temporaries.erase(temporary);
     throw;
   }
@@ -111,7 +112,7 @@ void AbandonUnfinishedFiles() {
   auto& [mutex, temporaries] = TheUnfinished();
   mutex.lock();  // never unlocked
   std::error_code error;
-  for (const std::string& temporary : temporaries) fs::remove(temporary, error);
+  for (const std::string& temporary : temporaries) fs::remove(fs::u8path(temporary), error);
 }
 
 }  // namespace shapespace::internal

@@ -11,7 +11,7 @@ namespace shapespace::internal {
 /// The extension of a file's name in small letters, with its dot: ".obj" of "a/b.OBJ". Empty if the
 /// name has none.
 inline std::string FileExtension(const std::string& file) {
-  return InSmallLetters(std::filesystem::path(file).extension().string());
+  return InSmallLetters(std::filesystem::u8path(file).extension().u8string());
 }
 
 }  // namespace shapespace::internal

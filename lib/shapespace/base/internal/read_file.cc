@@ -9,12 +9,13 @@
 namespace shapespace::internal {
 
 std::string ReadFile(const std::string& file, std::int64_t most_bytes) {
+  const std::filesystem::path path = std::filesystem::u8path(file);
   std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored)) {
+  if (std::filesystem::is_directory(path, ignored)) {
     throw FileError(file + ": is a folder; name a file",
                     std::make_error_code(std::errc::is_a_directory));
   }
-  std::ifstream stream(file, std::ios::binary | std::ios::ate);
+  std::ifstream stream(path, std::ios::binary | std::ios::ate);
   if (!stream) {
     const std::error_code cause(errno, std::generic_category());
     throw FileError(file + ": cannot be opened: " + cause.message(), cause);

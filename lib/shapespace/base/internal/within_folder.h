@@ -1,7 +1,6 @@
 #ifndef SHAPESPACE_BASE_INTERNAL_WITHIN_FOLDER_H_
 #define SHAPESPACE_BASE_INTERNAL_WITHIN_FOLDER_H_
 
-#include <filesystem>
 #include <string>
 
 // Files that are named in other files.
@@ -10,7 +9,7 @@ namespace shapespace::internal {
 
 /// Whether `file` lies in `folder` or below it once all links are followed; it need not exist. An
 /// empty folder is the current one. False where the file system does not let this be found out.
-bool IsWithinFolder(const std::filesystem::path& folder, const std::filesystem::path& file);
+bool IsWithinFolder(const std::string& folder, const std::string& file);
 
 /// Ends messages about a file that does not: what the user can do.
 inline constexpr char kOutsideRemedy[] =

@@ -156,7 +156,7 @@ class GltfReader {
     library.SetImageLoader([](tinygltf::Image*, const int, std::string*, std::string*, int, int,
                               const unsigned char*, int, void*) { return true; },
                            nullptr);
-    const std::string folder = std::filesystem::path(file_).parent_path().string();
+    const std::string folder = std::filesystem::u8path(file_).parent_path().u8string();
     BufferFiles files(folder, allow_outside_files);
     library.SetFsCallbacks(files.Callbacks());
     const auto size = static_cast<unsigned>(bytes.size());

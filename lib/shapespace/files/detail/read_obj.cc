@@ -61,7 +61,7 @@ class ObjReader {
  public:
   ObjReader(const std::string& file, std::string text) : text_(std::move(text)) {
     soup_.file = file;
-    soup_.appearance.folder = std::filesystem::path(file).parent_path().string();
+    soup_.appearance.folder = std::filesystem::u8path(file).parent_path().u8string();
     soup_.appearance.own_folder = soup_.appearance.folder;
   }
 

@@ -30,8 +30,9 @@ class VtpBytes {
   /// An upper bound of the bytes that are left.
   size_t Left() const { return base64_ ? text_.size() / 4 * 3 + ready_.size() : text_.size(); }
 
-  std::string Take(size_t count) {
-    if (count > Left()) throw FileError("it is longer than the file");
+  std::string Take(std::uint64_t wanted) {
+    if (wanted > Left()) throw FileError("it is longer than the file");
+    const auto count = static_cast<size_t>(wanted);
     std::string bytes;
     if (!base64_) {
       bytes = text_.substr(0, count);
@@ -78,13 +79,13 @@ class VtpArrayDecoder {
       : source_(encoded, base64), encoding_(encoding), most_(most) {}
 
   std::string Decode() {
-    const size_t first = Header();
+    const std::uint64_t first = Header();
     if (!encoding_.compressed) {
       // Several arrays may have the same place in the file.
       if (first > most_ && first <= source_.Left()) throw FileError(kTooMuch);
       return source_.Take(first);
     }
-    const size_t blocks = first, block_size = Header(), last_size = Header();
+    const std::uint64_t blocks = first, block_size = Header(), last_size = Header();
     if (blocks == 0) return {};
     if (blocks > source_.Left() / encoding_.header_size) {
       throw FileError("it has more blocks than the file has room for");
@@ -92,18 +93,20 @@ class VtpArrayDecoder {
     if (block_size == 0 || block_size > most_ / blocks || last_size > block_size) {
       throw FileError(kTooMuch);
     }
-    std::vector<size_t> sizes(blocks);
-    for (size_t& size : sizes) size = Header();
+    std::vector<std::uint64_t> sizes(blocks);
+    for (std::uint64_t& size : sizes) size = Header();
     std::string bytes;
-    for (size_t i = 0; i < blocks; ++i) {
+    for (std::uint64_t i = 0; i < blocks; ++i) {
       const bool is_short = i + 1 == blocks && last_size > 0;
-      bytes += Inflated(source_.Take(sizes[i]), is_short ? last_size : block_size);
+      bytes +=
+          Inflated(source_.Take(sizes[i]), static_cast<size_t>(is_short ? last_size : block_size));
     }
     return bytes;
   }
 
  private:
-  size_t Header() {
+  // Of a hostile file it may exceed any memory, also that of a machine of 32 bits.
+  std::uint64_t Header() {
     const std::string bytes = source_.Take(encoding_.header_size);
     std::uint64_t number = 0;
     for (size_t i = 0; i < bytes.size(); ++i) {

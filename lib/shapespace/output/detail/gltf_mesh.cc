@@ -166,7 +166,7 @@ class Textures {
     if (!read) return -1;
     tinygltf::Image image;
     image.mimeType = read->type;
-    image.name = AsUtf8(std::filesystem::path(file).filename().string());
+    image.name = AsUtf8(std::filesystem::u8path(file).filename().u8string());
     image.bufferView = AddBytes(read->bytes.data(), read->bytes.size(), 0, model_);
     tinygltf::Texture texture;
     texture.source = static_cast<int>(model_->images.size());

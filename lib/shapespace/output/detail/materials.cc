@@ -25,7 +25,7 @@ class LibraryReader {
 
   /// \throw FileError if the file cannot be read.
   void Read() {
-    const std::string text = ReadFile(file_.string());
+    const std::string text = ReadFile(file_.u8string());
     Lines lines(text);
     std::string_view line;
     Material* material = nullptr;  // to which the statements belong
@@ -37,7 +37,7 @@ class LibraryReader {
       } else if (material != nullptr) {
         const char* const problem = ReadStatement(keyword, words, material);
         if (problem == nullptr) continue;
-        warnings_->push_back(file_.string() + ":" + std::to_string(lines.Number()) + ": " +
+        warnings_->push_back(file_.u8string() + ":" + std::to_string(lines.Number()) + ": " +
                              Quoted(line) + " " + problem);
       }
     }
@@ -66,7 +66,7 @@ class LibraryReader {
       // Windows path separators.
       std::replace(name.begin(), name.end(), '\\', '/');
       if (name.empty()) return kNotUnderstood;
-      material->texture = (file_.parent_path() / name).string();
+      material->texture = (file_.parent_path() / fs::u8path(name)).u8string();
       if (options) return "has options, which are not used";
     }
     return nullptr;
@@ -89,8 +89,11 @@ class LibraryReader {
 std::vector<fs::path> Files(const fs::path& folder, const std::string& statement) {
   std::error_code ignored;
   std::vector<fs::path> files;
-  for (LineWords words(statement); !words.Done();) files.push_back(folder / words.Next());
-  if (files.size() < 2 || fs::exists(folder / statement, ignored)) return {folder / statement};
+  for (LineWords words(statement); !words.Done();) {
+    files.push_back(folder / fs::u8path(words.Next()));
+  }
+  const fs::path whole = folder / fs::u8path(statement);
+  if (files.size() < 2 || fs::exists(whole, ignored)) return {whole};
   return files;
 }
 
@@ -103,9 +106,9 @@ std::vector<std::optional<Material>> ReadMaterials(const Appearance& appearance,
   if (names.empty()) return {};
   std::map<std::string, Material> known;
   for (const std::string& library : appearance.material_libraries) {
-    for (const fs::path& file : Files(appearance.folder, library)) {
-      if (!allow_outside_files && !IsWithinFolder(appearance.own_folder, file)) {
-        warnings->push_back("material library " + file.string() + kOutsideRemedy);
+    for (const fs::path& file : Files(fs::u8path(appearance.folder), library)) {
+      if (!allow_outside_files && !IsWithinFolder(appearance.own_folder, file.u8string())) {
+        warnings->push_back("material library " + file.u8string() + kOutsideRemedy);
         continue;
       }
       try {

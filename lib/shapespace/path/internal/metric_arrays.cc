@@ -263,13 +263,14 @@ void AddAppearance(const Appearance& appearance, const std::string& file, Header
   add_indices("polygon_group", appearance.groups.of_polygon);
   add_indices("polygon_object", appearance.objects.of_polygon);
   arrays->Add("vertex_colours", appearance.vertex_colours);
-  const auto here = std::filesystem::current_path();
-  const auto folder = (here / appearance.folder)
-                          .lexically_normal()
-                          .lexically_proximate((here / file).parent_path().lexically_normal());
+  namespace fs = std::filesystem;
+  const fs::path here = fs::current_path();
+  const fs::path folder_of_file = (here / fs::u8path(file)).parent_path().lexically_normal();
+  const fs::path folder =
+      (here / fs::u8path(appearance.folder)).lexically_normal().lexically_proximate(folder_of_file);
   const bool has_libraries = !appearance.material_libraries.empty();
   (*header)["appearance"] = {{"material_libraries", NamesToJson(appearance.material_libraries)},
-                             {"folder", NameToJson(has_libraries ? folder.string() : "")},
+                             {"folder", NameToJson(has_libraries ? folder.generic_u8string() : "")},
                              {"materials", NamesToJson(appearance.materials.names)},
                              {"groups", NamesToJson(appearance.groups.names)},
                              {"objects", NamesToJson(appearance.objects.names)}};
@@ -278,14 +279,16 @@ void AddAppearance(const Appearance& appearance, const std::string& file, Header
 Appearance ReadAppearance(const HeaderJson& header, const std::string& file,
                           const ArrayReader& arrays) {
   const HeaderJson& json = header.at("appearance");
-  const auto folder = std::filesystem::path(file).parent_path();
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::u8path(file).parent_path();
   Appearance appearance;
   appearance.texture_coordinates =
       arrays.Get<Eigen::Matrix2Xd>("texture_coordinates", 2, Eigen::Dynamic);
   appearance.corner_texture = IndicesFrom(arrays, "corner_texture");
   appearance.material_libraries = NamesFromJson(json.at("material_libraries"));
-  appearance.folder = (folder / NameFromJson(json.at("folder"))).lexically_normal().string();
-  appearance.own_folder = folder.string();
+  appearance.folder =
+      (folder / fs::u8path(NameFromJson(json.at("folder")))).lexically_normal().u8string();
+  appearance.own_folder = folder.u8string();
   appearance.materials = {NamesFromJson(json.at("materials")),
                           IndicesFrom(arrays, "polygon_material")};
   appearance.groups = {NamesFromJson(json.at("groups")), IndicesFrom(arrays, "polygon_group")};

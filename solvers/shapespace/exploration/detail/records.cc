@@ -19,12 +19,12 @@ constexpr char kExtension[] = ".geodesic";
 }  // namespace
 
 std::string Records::File(const std::string& digest) const {
-  return (fs::path(folder_) / (digest + kExtension)).string();
+  return (fs::u8path(folder_) / (digest + kExtension)).u8string();
 }
 
 std::optional<std::string> Records::Find(const std::string& digest) const {
   std::error_code error;
-  if (folder_.empty() || !fs::exists(File(digest), error)) return {};
+  if (folder_.empty() || !fs::exists(fs::u8path(File(digest)), error)) return {};
   try {
     return ReadFile(File(digest));
   } catch (const FileError&) {
@@ -51,16 +51,17 @@ void Records::Keep(const std::string& digest, const std::string& bytes) const {
 
 void Records::Remove() const {
   std::error_code error;
-  if (folder_.empty() || !fs::is_directory(folder_, error)) return;
+  const fs::path folder = fs::u8path(folder_);
+  if (folder_.empty() || !fs::is_directory(folder, error)) return;
   // Another run may remove them at the same time.
-  fs::directory_iterator entry(folder_, error);
+  fs::directory_iterator entry(folder, error);
   for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
     // Temporary files have a suffix after the extension (WriteFileAtomically).
-    const std::string name = entry->path().filename().string();
+    const std::string name = entry->path().filename().u8string();
     std::error_code ignored;
     if (name.find(kExtension) != std::string::npos) fs::remove(entry->path(), ignored);
   }
-  fs::remove(folder_, error);  // fails if it is not empty
+  fs::remove(folder, error);  // fails if it is not empty
 }
 
 }  // namespace shapespace::internal

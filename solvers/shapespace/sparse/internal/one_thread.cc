@@ -1,8 +1,8 @@
 #include <shapespace/sparse/internal/one_thread.h>
 
-#include <dlfcn.h>
-
 #include <mutex>
+
+#include <shapespace/base/internal/system.h>
 
 namespace shapespace::internal {
 namespace {
@@ -10,8 +10,8 @@ namespace {
 // A setting of a library, if the program is linked with that library.
 struct Setting {
   Setting(const char* get_name, const char* set_name)
-      : get(reinterpret_cast<int (*)()>(dlsym(RTLD_DEFAULT, get_name))),
-        set(reinterpret_cast<void (*)(int)>(dlsym(RTLD_DEFAULT, set_name))) {}
+      : get(reinterpret_cast<int (*)()>(FunctionOfProgram(get_name))),
+        set(reinterpret_cast<void (*)(int)>(FunctionOfProgram(set_name))) {}
   bool Exists() const { return get != nullptr && set != nullptr; }
 
   int (*const get)();
