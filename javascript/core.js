@@ -50,7 +50,7 @@ export class Path {
   }
 }
 
-/** Solves in workers that `start` makes, which load the module `wasm`. */
+/** Solves in workers that `start` makes, which have the compiled module `wasm` in common. */
 export class Shapespace {
   #wasm;
   #start;

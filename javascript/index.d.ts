@@ -206,11 +206,12 @@ export interface Shapespace {
 }
 
 /**
- * Loads the library. `wasm` is the content of shapespace-module.wasm, and `start` makes the worker, for
- * programs that have these files elsewhere than beside this module.
+ * Loads the library. `wasm` is the content of shapespace-module.wasm, or what WebAssembly.compile made
+ * of it, and `start` makes the worker, for programs that have these files elsewhere than beside this
+ * module.
  */
 export function load(options?: {
-  wasm?: ArrayBuffer | Uint8Array;
+  wasm?: ArrayBuffer | Uint8Array | WebAssembly.Module;
   start?: () => Worker | Promise<Worker>;
 }): Promise<Shapespace>;
 

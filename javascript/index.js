@@ -22,6 +22,7 @@ async function fetchModule(url) {
 }
 
 export async function load({ wasm, start = startWorker } = {}) {
-  const url = new URL('./shapespace-module.wasm', import.meta.url);
-  return new Shapespace(wasm ?? (await fetchModule(url)), start);
+  const given = wasm ?? (await fetchModule(new URL('./shapespace-module.wasm', import.meta.url)));
+  const module = given instanceof WebAssembly.Module ? given : await WebAssembly.compile(given);
+  return new Shapespace(module, start);
 }

@@ -25,7 +25,14 @@ const onPreview = (preview) => send({ preview });
 
 const calls = {
   async load(wasm) {
-    module = await makeModule({ wasmBinary: new Uint8Array(wasm), printErr() {} }); // the log of Ceres
+    module = await new Promise((resolve, reject) => {
+      const instantiateWasm = (imports, done) => {
+        WebAssembly.instantiate(wasm, imports).then(done).catch(reject);
+        return {}; // what it exports comes later
+      };
+      const printErr = () => {}; // the log of Ceres
+      makeModule({ instantiateWasm, printErr }).then(resolve, reject);
+    });
     return {};
   },
   read: (poses, options) => module.read(poses, options),

@@ -10,14 +10,6 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 git -C "$project" archive --format=tar HEAD:javascript | tar --extract --directory "$work"
-cp "$project"/javascript/shapespace-module.{mjs,wasm} "$project/LICENSE" "$work/"
-# The licences of what is compiled into the module.
-{
-  cat "$project/NOTICES"
-  for licence in "$project"/build/wasm-libraries/licenses/* /usr/share/doc/{emscripten,libfast-float-dev}/copyright; do
-    printf '\n\n%s\n\n' "== $(basename "$(dirname "$licence")")/$(basename "$licence")"
-    cat "$licence"
-  done
-} >"$work/NOTICES"
+cp "$project"/javascript/{NOTICES,shapespace-module.{mjs,wasm}} "$project/LICENSE" "$work/"
 (cd "$work" && npm pack --silent --pack-destination "$out")
 ls -l "$out/shapespace-$version.tgz"

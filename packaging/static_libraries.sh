@@ -65,22 +65,26 @@ with_cmake() {
 # Of each library, programs take the functions that they call, and no more (--gc-sections).
 flags="-ffunction-sections -fdata-sections -ffile-prefix-map=$work="
 
-build_giflib() {
-  # It has a Makefile, which knows nothing of other systems.
-  cat >giflib/CMakeLists.txt <<'END' && with_cmake giflib .
+# plain_c SOURCE LIBRARY HEADERS FILES: builds and installs a library of C files alone, whose own Makefile
+# knows nothing of other systems, or whose CMakeLists.txt wants files that Debian's archive lacks.
+plain_c() {
+  cat >"$1/CMakeLists.txt" <<END && with_cmake "$1" .
 cmake_minimum_required(VERSION 3.22)
-project(giflib C)
-add_library(gif dgif_lib.c egif_lib.c gifalloc.c gif_err.c gif_hash.c openbsd-reallocarray.c)
-install(TARGETS gif)
-install(FILES gif_lib.h TYPE INCLUDE)
+project($2 C)
+add_library($2 $4)
+install(TARGETS $2)
+install(FILES $3 TYPE INCLUDE)
 END
 }
-build_googletest() { with_cmake googletest . -DBUILD_GMOCK=OFF; }
-build_zlib() {
-  # A DLL, whose description Debian's archive lacks, and which would have the static library's name.
-  sed -i 's/win32.zlib1.rc//; s/(zlib zlibstatic PROPERTIES OUTPUT/(zlibstatic PROPERTIES OUTPUT/' \
-    zlib/CMakeLists.txt && with_cmake zlib .
+build_giflib() {
+  plain_c giflib gif gif_lib.h \
+    "dgif_lib.c egif_lib.c gifalloc.c gif_err.c gif_hash.c openbsd-reallocarray.c"
 }
+build_zlib() {
+  plain_c zlib z "zconf.h zlib.h" "adler32.c compress.c crc32.c deflate.c inffast.c inflate.c
+    inftrees.c trees.c uncompr.c zutil.c"
+}
+build_googletest() { with_cmake googletest . -DBUILD_GMOCK=OFF; }
 build_expat() {
   with_cmake expat expat -DEXPAT_SHARED_LIBS=OFF -DEXPAT_BUILD_TOOLS=OFF -DEXPAT_BUILD_EXAMPLES=OFF \
     -DEXPAT_BUILD_TESTS=OFF -DEXPAT_BUILD_DOCS=OFF
@@ -111,6 +115,10 @@ build_embree() {
   # the geometries it has the two that shapespace draws and searches; with instructions of any processor.
   sed -i '/^IF (EMBREE_STATIC_LIB)/,/^ENDIF()/d' embree/common/cmake/installTBB.cmake &&
     sed -i '/readme\.pdf/d' embree/common/cmake/package.cmake &&
+    # For Windows it expects Microsoft's compiler, and a linker and C library that know ELF.
+    sed -i 's/INCLUDE (msvc)/INCLUDE (gnu)/' embree/CMakeLists.txt &&
+    sed -i 's/ -z [a-z ]*//g; s/ -pie//; s/ -D_FORTIFY_SOURCE=2//' embree/common/cmake/gnu.cmake &&
+    sed -i '/embree\.rc/d' embree/kernels/CMakeLists.txt &&
     with_cmake embree . -DEMBREE_STATIC_LIB=ON -DEMBREE_TUTORIALS=OFF -DEMBREE_ISPC_SUPPORT=OFF \
       -DEMBREE_RAY_PACKETS=OFF -DEMBREE_GEOMETRY_QUAD=OFF -DEMBREE_GEOMETRY_CURVE=OFF \
       -DEMBREE_GEOMETRY_SUBDIVISION=OFF -DEMBREE_GEOMETRY_INSTANCE=OFF -DEMBREE_GEOMETRY_GRID=OFF \
@@ -118,7 +126,10 @@ build_embree() {
 }
 build_openblas() {
   # What shapespace calls is of doubles, and of one thread, while several threads call at once.
-  make -C openblas -j "$(nproc)" libs NOFORTRAN=1 NO_LAPACKE=1 NO_CBLAS=1 USE_THREAD=0 USE_LOCKING=1 \
+  local compiler=()
+  [[ ${CMAKE_TOOLCHAIN_FILE-} != */windows.cmake ]] ||
+    compiler=(CC=x86_64-w64-mingw32-gcc-posix HOSTCC=gcc CROSS=1 CROSS_SUFFIX=x86_64-w64-mingw32-)
+  make -C openblas -j "$(nproc)" libs "${compiler[@]}" NOFORTRAN=1 NO_LAPACKE=1 NO_CBLAS=1 USE_THREAD=0 USE_LOCKING=1 \
     BUILD_SINGLE=1 BUILD_DOUBLE=1 DYNAMIC_ARCH=1 TARGET=NEHALEM \
     DYNAMIC_LIST="NEHALEM SANDYBRIDGE HASWELL SKYLAKEX" COMMON_OPT="-O2 $flags" &&
     cp openblas/libopenblas*-r*.a "$prefix/lib/libopenblas.a"

@@ -69,10 +69,20 @@ class Events : public Progress {
   double share_ = 0;
 };
 
+// A sentence of the library with options as they are written in JavaScript.
+std::string WithNamesOfOptions(std::string sentence) {
+  for (const std::string name :
+       {"allow_mirrored", "allow_mismatch", "allow_nonmanifold", "memory_limit"}) {
+    const size_t at = sentence.find(name);
+    if (at != std::string::npos) sentence.replace(at, name.size(), CamelCase(name));
+  }
+  return sentence;
+}
+
 val ErrorOf(const std::string& kind, const Error& error) {
   val result = val::object();
   result.set("kind", kind);
-  result.set("message", WithoutFolder(error.what()));
+  result.set("message", WithNamesOfOptions(WithoutFolder(error.what())));
   result.set("option", CamelCase(error.option()));
   return result;
 }

@@ -198,4 +198,10 @@ test('what is wrong is refused with a sentence, by its kind', async () => {
     shapespace.interpolate([flat, rolled], { maxIterations: -1 }),
     (error) => error.fields[0] === 'maxIterations',
   );
+  await assert.rejects(shapespace.interpolate([flat, rolled], { memoryLimit: 1e4 }), /memoryLimit/);
+  const other_unit = { ...rolled, positions: rolled.positions.map((c) => 1000 * c) };
+  await assert.rejects(
+    shapespace.interpolate([flat, other_unit]),
+    (error) => error.option === 'allowMismatch' && error.message.includes('allowMismatch'),
+  );
 });

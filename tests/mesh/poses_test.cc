@@ -190,8 +190,7 @@ TEST_F(PosesTest, MessagesAboutStreamsNameThem) {
   std::ifstream closed(File("none.obj", square_) + ".not");
   ExpectError<FileError>([&] { ReadSoup(closed, "closed", MeshFormat::kObj); }, {"closed"});
   std::ifstream folder(Path(""));  // can be opened, but not read
-  ExpectError<FileError>([&] { ReadSoup(folder, "folder", MeshFormat::kObj); },
-                         {"folder: cannot be read to its end"});
+  ExpectError<FileError>([&] { ReadSoup(folder, "folder", MeshFormat::kObj); }, {"folder"});
   ExpectError<MeshError>([&] { MakePoses({read(book_, "book")}); },
                          {"book: edges with more than two polygons", "line 6"});
   ReadOptions options;

@@ -23,10 +23,14 @@ function notices(bundle, wasm) {
     if (!file) throw new Error(`${folder} has no licence that pages could contain`);
     return file;
   });
-  if (wasm) files.push(`${root}/NOTICES`);
+  if (wasm) files.push(`${root}/javascript/NOTICES`);
   const texts = files.map((file) =>
-    // Comments may not contain two hyphens, as lines below titles do.
-    readFileSync(file, 'utf8').trim().replaceAll('\u00a9', '(c)').replaceAll(/--+/g, '='),
+    readFileSync(file, 'utf8')
+      .trim()
+      .replaceAll('\u00a9', '(c)')
+      .normalize('NFKD')
+      .replaceAll(/\p{M}/gu, '') // accents of names
+      .replaceAll(/--+/g, '='), // comments may not contain two hyphens
   );
   const text = ['shapespace and the software that this page contains', ...texts].join('\n\n\n');
   if (/--|[^\n\x20-\x7e]/.test(text)) throw new Error('a licence does not fit into a comment');

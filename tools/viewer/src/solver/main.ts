@@ -51,8 +51,7 @@ async function start(): Promise<void> {
     new SolverPage(solver, helper);
     byId('message').hidden = true;
     byId('layout').hidden = false;
-    warmUp(helper);
-    warmUp(solver);
+    warmUp(solver, helper);
   } catch (error) {
     return showMessage(`This page is damaged: ${(error as Error).message}. Get the file again.`);
   }

@@ -9,10 +9,10 @@ export interface Remedy {
 
 /** What is meant for programs, in the words of this page. */
 const words: [RegExp, string][] = [
-  [/\. If the pose is right, say so by allow_mismatch/g, ''],
-  [/\. If it was turned over on purpose, say so by allow_mirrored/g, ''],
+  [/\. If the pose is right, say so by allowMismatch/g, ''],
+  [/\. If it was turned over on purpose, say so by allowMirrored/g, ''],
   [/more than the memory limit/g, 'more than the 2,000 MB that this page takes'],
-  [/ or raise memory_limit/g, ''],
+  [/ or raise memoryLimit/g, ''],
   [
     /If they never were one mesh, fit .* onto .* with Correspond/g,
     'If they never were one mesh, the program shape-correspond of shapespace fits one onto the other; this page cannot',

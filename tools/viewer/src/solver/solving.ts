@@ -35,15 +35,17 @@ export class Solving {
     return this.running !== null;
   }
 
-  /** Starts soon, and ends what is running now. */
+  /** Starts soon, or at once and not after the next picture is drawn, and ends what is running now. */
   wish(wish: Wish, delay = settlingTime): void {
     this.running?.abort();
     const controller = new AbortController();
     this.running = controller;
     this.listener.onBusy(true);
-    setTimeout(() => {
+    const run = () => {
       if (this.running === controller) void this.run(wish, controller);
-    }, delay);
+    };
+    if (delay > 0) setTimeout(run, delay);
+    else run();
   }
 
   cancel(): void {
