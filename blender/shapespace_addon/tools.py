@@ -15,6 +15,8 @@ from .task import Result
 # Meshes from modelling often have non-manifold edges, such as those of inner faces.
 _ALWAYS = ("--allow_nonmanifold", "--progress", "lines")
 _SECONDS_TO_END = 2  # that a process is given to end by itself
+_TO_GET_THEM = "unpack the tools for Windows" if os.name == "nt" else "build shapespace"
+_NO_WINDOW = getattr(subprocess, "CREATE_NO_WINDOW", 0)  # of a console, on Windows
 
 
 def find(folder: str) -> dict:
@@ -24,10 +26,15 @@ def find(folder: str) -> dict:
     missing = [name for name in commands.NEEDED if found[name] is None]
     if missing:
         raise Problem(
-            f"{missing[0]} was not found in {folder or 'any folder of PATH'}: build shapespace, and"
+            f"{missing[0]} was not found in {folder or 'any folder of PATH'}: {_TO_GET_THEM}, and"
             " name the folder of its tools in the preferences of this add-on"
         )
     return found
+
+
+def _name(program: str) -> str:
+    """As it calls itself: without folder, and without the .exe of Windows."""
+    return os.path.splitext(os.path.basename(program))[0]
 
 
 class ToolsRun:
@@ -62,7 +69,7 @@ class ToolsRun:
             return False
         if self._process.wait() != 0:
             self._folder.cleanup()
-            program = os.path.basename(self._commands[self._done][0])
+            program = _name(self._commands[self._done][0])
             said = "; ".join(self._errors) or f"ended with code {self._process.returncode}"
             raise Problem(f"{program}: {said}")
         self._done += 1
@@ -100,7 +107,7 @@ class ToolsRun:
         file = os.path.join(self._folder.name, commands.REPORT)
         if not os.path.exists(file):
             return {}
-        with open(file) as source:
+        with open(file, encoding="utf-8") as source:
             return json.load(source)
 
     def _write(self, body, prefix: str) -> list:
@@ -119,8 +126,9 @@ class ToolsRun:
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.PIPE,
                 stderr=subprocess.STDOUT,
-                text=True,
+                encoding="utf-8",
                 errors="replace",
+                creationflags=_NO_WINDOW,
             )
         except OSError as error:
             raise Problem(f"{command[0]} cannot be run: {error.strerror}") from None
@@ -128,7 +136,7 @@ class ToolsRun:
         self._reader.start()
 
     def _read(self, process) -> None:
-        program = os.path.basename(process.args[0])
+        program = _name(process.args[0])
         with process.stdout:
             for line in process.stdout:
                 self._hear(program, line.rstrip("\n"))

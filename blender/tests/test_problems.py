@@ -2,6 +2,7 @@
 
 import os
 import pathlib
+from unittest import mock
 
 import bpy
 import numpy as np
@@ -113,6 +114,26 @@ class Problems(Case):
         preferences().tools = ""
         self.inbetweens(shapes=1)
         self.near(seen(cube, 3), bent_cube())
+
+    def test_tools_of_windows_in_a_folder_of_any_name(self):
+        """Programs are named .exe there, but not in what they say."""
+        folder = self.folder / "\u043c\u043e\u0438 tools"
+        folder.mkdir()
+
+        def which(name, path=None):
+            program = folder / f"{name}.exe"
+            program.write_text(f'#!/bin/sh\nexec \'{tools}/{name}\' "$@"\n')
+            program.chmod(0o755)
+            return str(program)
+
+        tools = preferences().tools
+        preferences().tools = str(folder)
+        cube = add_object("cube", CUBE, CUBE_FACES)
+        add_key(cube, "inside out", np.array(CUBE) * [-1, 1, 1])
+        with mock.patch("shutil.which", which):
+            self.refused(
+                "shape-interpolate: 'inside out' against 'Basis': ", bpy.ops.shapespace.inbetweens
+            )
 
     def stand_in(self, script):
         """Has programs with this text take the place of the tools."""

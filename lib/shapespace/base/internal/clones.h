@@ -3,8 +3,8 @@
 
 // Compiles a function for several instruction sets, one of which is selected when the
 // program starts. A portable build without this is slower by a factor of two and more. Sanitizers
-// cannot instrument the selection.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
+// cannot instrument the selection, and Windows does not have it.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(_WIN32) && \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define SHAPESPACE_CLONES \
   __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
