@@ -18,6 +18,22 @@ out_folder() {
   mkdir -p "$1" && (cd "$1" && pwd)
 }
 
+# pack_zip ARCHIVE.zip FOLDER: all files in it, likewise.
+pack_zip() {
+  /usr/bin/python3 - "$1" "$2" <<'PYTHON'
+import os, pathlib, sys, time, zipfile
+
+archive, folder = sys.argv[1], pathlib.Path(sys.argv[2])
+date = time.gmtime(int(os.environ["SOURCE_DATE_EPOCH"]))[:6]
+with zipfile.ZipFile(archive, "w") as out:
+    for file in sorted(path for path in folder.rglob("*") if path.is_file()):
+        entry = zipfile.ZipInfo(file.relative_to(folder).as_posix(), date)
+        entry.compress_type = zipfile.ZIP_DEFLATED
+        entry.external_attr = 0o100644 << 16
+        out.writestr(entry, file.read_bytes())
+PYTHON
+}
+
 # pack ARCHIVE.tar.xz FOLDER NAME: what is in FOLDER/NAME, with nothing of this machine or user.
 pack() {
   tar --create --directory "$2" --sort=name --format=ustar --mtime="@$SOURCE_DATE_EPOCH" \

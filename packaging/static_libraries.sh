@@ -62,6 +62,8 @@ with_cmake() {
     cmake --build "$source/build" && cmake --install "$source/build"
 }
 
+for_windows() { [[ ${CMAKE_TOOLCHAIN_FILE-} == */windows.cmake ]]; }
+
 # Of each library, programs take the functions that they call, and no more (--gc-sections).
 flags="-ffunction-sections -fdata-sections -ffile-prefix-map=$work="
 
@@ -110,15 +112,18 @@ build_onetbb() {
     sed -i '1i find_package(Threads REQUIRED)  # which the static library needs' \
       "$prefix/lib/cmake/TBB/TBBConfig.cmake"
 }
+# It expects Microsoft's compiler on Windows, and elsewhere a linker and C library that know ELF.
+embree_for_mingw() {
+  sed -i 's/INCLUDE (msvc)/INCLUDE (gnu)/' embree/CMakeLists.txt &&
+    sed -i 's/ -z [a-z ]*//g; s/ -pie//; s/ -D_FORTIFY_SOURCE=2//' embree/common/cmake/gnu.cmake &&
+    sed -i '/embree\.rc/d' embree/kernels/CMakeLists.txt
+}
 build_embree() {
   # A static Embree would install a target of an older TBB, and a manual that Debian's archive lacks. Of
   # the geometries it has the two that shapespace draws and searches; with instructions of any processor.
   sed -i '/^IF (EMBREE_STATIC_LIB)/,/^ENDIF()/d' embree/common/cmake/installTBB.cmake &&
     sed -i '/readme\.pdf/d' embree/common/cmake/package.cmake &&
-    # For Windows it expects Microsoft's compiler, and a linker and C library that know ELF.
-    sed -i 's/INCLUDE (msvc)/INCLUDE (gnu)/' embree/CMakeLists.txt &&
-    sed -i 's/ -z [a-z ]*//g; s/ -pie//; s/ -D_FORTIFY_SOURCE=2//' embree/common/cmake/gnu.cmake &&
-    sed -i '/embree\.rc/d' embree/kernels/CMakeLists.txt &&
+    { ! for_windows || embree_for_mingw; } &&
     with_cmake embree . -DEMBREE_STATIC_LIB=ON -DEMBREE_TUTORIALS=OFF -DEMBREE_ISPC_SUPPORT=OFF \
       -DEMBREE_RAY_PACKETS=OFF -DEMBREE_GEOMETRY_QUAD=OFF -DEMBREE_GEOMETRY_CURVE=OFF \
       -DEMBREE_GEOMETRY_SUBDIVISION=OFF -DEMBREE_GEOMETRY_INSTANCE=OFF -DEMBREE_GEOMETRY_GRID=OFF \
@@ -127,9 +132,10 @@ build_embree() {
 build_openblas() {
   # What shapespace calls is of doubles, and of one thread, while several threads call at once.
   local compiler=()
-  [[ ${CMAKE_TOOLCHAIN_FILE-} != */windows.cmake ]] ||
+  ! for_windows ||
     compiler=(CC=x86_64-w64-mingw32-gcc-posix HOSTCC=gcc CROSS=1 CROSS_SUFFIX=x86_64-w64-mingw32-)
-  make -C openblas -j "$(nproc)" libs "${compiler[@]}" NOFORTRAN=1 NO_LAPACKE=1 NO_CBLAS=1 USE_THREAD=0 USE_LOCKING=1 \
+  make -C openblas -j "$(nproc)" libs "${compiler[@]}" \
+    NOFORTRAN=1 NO_LAPACKE=1 NO_CBLAS=1 USE_THREAD=0 USE_LOCKING=1 \
     BUILD_SINGLE=1 BUILD_DOUBLE=1 DYNAMIC_ARCH=1 TARGET=NEHALEM \
     DYNAMIC_LIST="NEHALEM SANDYBRIDGE HASWELL SKYLAKEX" COMMON_OPT="-O2 $flags" &&
     cp openblas/libopenblas*-r*.a "$prefix/lib/libopenblas.a"

@@ -22,7 +22,6 @@ foreign=$(x86_64-w64-mingw32-objdump -p "$work/$name"/*.exe | sed -n 's/.*DLL Na
 [[ -z $foreign ]] || die "the programs need $foreign"
 cp "$project"/{LICENSE,NOTICES} "$work/$name/"
 cp "$project"/build/windows-libraries/licenses/* "$work/$name/licenses/"
-rm -f "$work/$name/licenses/googletest"
 cp /usr/share/doc/libstdc++6/copyright "$work/$name/licenses/gcc"
 cp /usr/share/doc/mingw-w64-common/copyright "$work/$name/licenses/mingw-w64"
 cat >"$work/$name/README.txt" <<TEXT
@@ -41,15 +40,5 @@ The licence of shapespace is in LICENSE; those of the libraries that the program
 and licenses.
 TEXT
 sed -i 's/$/\r/' "$work/$name/README.txt"
-python3 - "$work" "$name" "$out/$name.zip" "$SOURCE_DATE_EPOCH" <<'PYTHON'
-import pathlib, sys, time, zipfile
-folder, name, archive, epoch = sys.argv[1:]
-date = time.gmtime(int(epoch))[:6]
-with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as zipped:
-    for file in sorted(pathlib.Path(folder, name).rglob("*")):
-        if file.is_file():
-            entry = zipfile.ZipInfo(file.relative_to(folder).as_posix(), date)
-            entry.compress_type = zipfile.ZIP_DEFLATED
-            zipped.writestr(entry, file.read_bytes())
-PYTHON
+pack_zip "$out/$name.zip" "$work"
 ls -l "$out/$name.zip"

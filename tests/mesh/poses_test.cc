@@ -189,8 +189,12 @@ TEST_F(PosesTest, MessagesAboutStreamsNameThem) {
   ExpectError<FileError>([&] { read("", "socket"); }, {"socket", "empty"});
   std::ifstream closed(File("none.obj", square_) + ".not");
   ExpectError<FileError>([&] { ReadSoup(closed, "closed", MeshFormat::kObj); }, {"closed"});
+  // In Node, a folder is read as an empty file.
+#ifndef __EMSCRIPTEN__
   std::ifstream folder(Path(""));  // can be opened, but not read
-  ExpectError<FileError>([&] { ReadSoup(folder, "folder", MeshFormat::kObj); }, {"folder"});
+  ExpectError<FileError>([&] { ReadSoup(folder, "folder", MeshFormat::kObj); },
+                         {"folder: cannot be read to its end"});
+#endif
   ExpectError<MeshError>([&] { MakePoses({read(book_, "book")}); },
                          {"book: edges with more than two polygons", "line 6"});
   ReadOptions options;

@@ -21,11 +21,8 @@ chmod +x "$wrapped"/bin/*
 export WINEDEBUG=-all WINEPREFIX=${WINEPREFIX:-$wrapped/prefix}
 wine cmd /c exit >/dev/null 2>&1 # makes the prefix
 wineserver -p # programs start in a tenth of the time while it runs
-trap 'wineserver -k' EXIT
+trap 'wineserver -k; cmake --preset release -USHAPESPACE_TESTED_TOOLS >/dev/null' EXIT
 cmake --preset release -DSHAPESPACE_TESTED_TOOLS="$wrapped/bin" >/dev/null
 cmake --build --preset release --target tools_test
 excluded=$(sed 's/ *#.*//; /^$/d' tests/windows/expected_failures.txt | paste -sd:)
-result=0
-build/release/tests/tools/tools_test --gtest_brief=1 --gtest_filter="${1:-*}:-$excluded" || result=$?
-cmake --preset release -USHAPESPACE_TESTED_TOOLS >/dev/null
-exit $result
+build/release/tests/tools/tools_test --gtest_brief=1 --gtest_filter="${1:-*}:-$excluded"

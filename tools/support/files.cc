@@ -64,10 +64,10 @@ void CheckNothingIsOverwritten(const std::vector<std::string>& inputs,
 void CheckCanBeWritten(const std::string& file) {
   namespace fs = std::filesystem;
   if (file == "-") return;
+  const fs::path path = fs::u8path(file);
   std::error_code error;
-  if (fs::is_directory(fs::u8path(file), error))
-    throw FileError(file + ": cannot be written: it is a folder");
-  fs::path folder = fs::absolute(fs::u8path(file)).parent_path();
+  if (fs::is_directory(path, error)) throw FileError(file + ": cannot be written: it is a folder");
+  fs::path folder = fs::absolute(path).parent_path();
   while (!fs::exists(folder, error) && folder.has_relative_path()) folder = folder.parent_path();
   if (!fs::is_directory(folder, error)) {
     throw FileError(file + ": cannot be written: " + folder.u8string() + " is not a folder");

@@ -111,8 +111,7 @@ void WriteFileAtomically(const std::string& file, const std::function<void(std::
 void AbandonUnfinishedFiles() {
   auto& [mutex, temporaries] = TheUnfinished();
   mutex.lock();  // never unlocked
-  std::error_code error;
-  for (const std::string& temporary : temporaries) fs::remove(fs::u8path(temporary), error);
+  for (const std::string& temporary : temporaries) RemoveFile(temporary.c_str());
 }
 
 }  // namespace shapespace::internal
