@@ -26,7 +26,7 @@ DEFINE_string(
 DEFINE_bool(soft_markers, false,
             "do not meet markers exactly, for landmarks that are some millimetres off");
 DEFINE_bool(hold_all_markers, false, "use all markers, including those that contradict the others");
-static const shapespace::tools::OptionFlags<shapespace::CorrespondenceOptions> flags(
+static const shapespace::tools::OptionFlags<shapespace::CorrespondenceOptions> fit_flags(
     __FILE__, {{"proportions", "proportions"}, {"find_markers", "find_markers"}});
 FLAG_GROUP(correspondence, "Correspondence", "markers");
 
@@ -72,7 +72,7 @@ CorrespondenceOptions CorrespondenceFromFlags() {
   CorrespondenceOptions options;
   options.drop_doubtful = !FLAGS_hold_all_markers;
   options.memory_limit = 1e9 * FLAGS_memory_limit;
-  flags.Set(&options);
+  fit_flags.Set(&options);
   return options;
 }
 

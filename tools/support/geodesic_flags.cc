@@ -11,7 +11,7 @@
 #include "support/option_flags.h"
 #include "support/tool.h"
 
-static const shapespace::tools::OptionFlags<shapespace::GeodesicOptions> flags(
+static const shapespace::tools::OptionFlags<shapespace::GeodesicOptions> geodesic_flags(
     __FILE__, {{"shapes", "shapes"},
                {"tolerance", "tolerance"},
                {"max_iterations", "max_iterations"},
@@ -28,7 +28,7 @@ GeodesicOptions GeodesicFromFlags() {
   GeodesicOptions options;
   options.metric = MetricFromFlags();
   options.memory_limit = 1e9 * FLAGS_memory_limit;
-  flags.Set(&options);
+  geodesic_flags.Set(&options);
   return options;
 }
 

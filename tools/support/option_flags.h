@@ -36,12 +36,12 @@ class OptionFlags {
  public:
   /// Makes a flag for each of `names`. `file` is `__FILE__`.
   OptionFlags(const char* file, FlagNames names) : file_(file), names_(std::move(names)) {
-    internal::ForOptions(internal::Of<Options>(),
-                         [&](const std::string& field, auto get, const std::string& about) {
-                           for (const auto& [own, flag] : names_) {
-                             if (own == field) Define(flag, get, about);
-                           }
-                         });
+    ForOptions(internal::Of<Options>(),
+               [&](const std::string& field, auto get, const std::string& about) {
+                 for (const auto& [own, flag] : names_) {
+                   if (own == field) Define(flag, get, about);
+                 }
+               });
   }
 
   /// Sets the fields whose flags were given, or have another default in this program, and

@@ -130,7 +130,7 @@ std::vector<std::string> LabelsFromFlag(const Path& path) {
   return labels;
 }
 
-PathOutputOptions OptionsFromFlags() {
+PathOutputOptions PathOptionsFromFlags() {
   PathOutputOptions options;
   options.colours = EnumFromFlag<PathColours>("color", FLAGS_color);
   options.film_strip = FilmStripOptionsFromFlags();
@@ -217,7 +217,7 @@ void WriteOutputs(const std::vector<std::string>& outputs, const Path& path, con
                   const Eigen::VectorXi& marks) {
   std::vector<std::string> paths_first = outputs;
   std::stable_partition(paths_first.begin(), paths_first.end(), IsPathFile);
-  PathOutputOptions options = OptionsFromFlags();
+  PathOutputOptions options = PathOptionsFromFlags();
   options.reference = whole.shapes[0];
   options.film_strip.marks = marks;
   for (const std::string& output : paths_first) {

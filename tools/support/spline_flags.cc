@@ -21,9 +21,8 @@ DEFINE_string(
     "with --spline: when the poses are met, ascending and separated by commas; for "
     "periodic splines one more, when the first pose is met again; or 'length', for times in "
     "proportion to the lengths of the geodesics between the poses; default: evenly spaced");
-static const shapespace::tools::OptionFlags<shapespace::SplineOptions> flags(__FILE__,
-                                                                             {{"hold_limit",
-                                                                               "hold_limit"}});
+static const shapespace::tools::OptionFlags<shapespace::SplineOptions> spline_flags(
+    __FILE__, {{"hold_limit", "hold_limit"}});
 FLAG_GROUP(spline, "Path", "spline");
 
 namespace shapespace::tools {
@@ -42,7 +41,7 @@ std::optional<SplineOptions> SplineFromFlags(int num_vertices) {
   if (options.ends == SplineEnds::kClamped) {
     options.first_velocity = options.last_velocity = Tangent::Zero(3, num_vertices);
   }
-  flags.Set(&options);
+  spline_flags.Set(&options);
   return options;
 }
 

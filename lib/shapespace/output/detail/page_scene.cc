@@ -33,7 +33,7 @@ using OrderedJson = nlohmann::ordered_json;
 
 constexpr int kVersion = 1;
 constexpr int kPositionSteps = 65535;  // of a position, along the longest side of the box
-constexpr float kTubeRadius = 0.005f;  // of a graph's edges, when a view is chosen
+constexpr float kEdgeRadius = 0.005f;  // of a graph's edges, when a view is chosen
 constexpr int kShades = 255;           // of a deviation
 constexpr double kMaxBytes = 1e9;      // before compression; more is slow or impossible in browsers
 
@@ -168,7 +168,7 @@ void AppendView(const Connectivity& connectivity, const std::vector<Shape>& shap
     small.push_back((shape.colwise() - box.low).array() / std::max(box.side, 1e-300) /
                     std::sqrt(3.0));
   }
-  const RayTracer tracer(connectivity, kTubeRadius);
+  const RayTracer tracer(connectivity, kEdgeRadius);
   std::vector<RayScene> scenes;
   for (const Shape& shape : small) scenes.emplace_back(tracer, shape, Eigen::VectorXf());
   Eigen::Vector3d up = view.up.isZero(0) ? ChooseUp(connectivity, small) : view.up.normalized();

@@ -23,7 +23,7 @@ constexpr double kSameAxis = 0.5;
 constexpr double kFlattened = 1e-6;
 
 // Two neighbouring triangles, with the corners of their hinge.
-struct Joint {
+struct TurningHinge {
   std::array<int, 2> triangles;
   Eigen::Vector4i corners;
 };
@@ -105,16 +105,16 @@ class WaysRound {
   Eigen::Quaterniond MeanRotation(const Part& part) const;
   Eigen::Quaterniond RotationOfMost() const;
   void TakeShorterWay(int part);
-  void Decide(const Joint& fold, int side);
-  bool GoesOtherWayRound(const Joint& fold, int side) const;
-  Eigen::Vector2d HalfAngle(const Joint& fold) const;
+  void Decide(const TurningHinge& fold, int side);
+  bool GoesOtherWayRound(const TurningHinge& fold, int side) const;
+  Eigen::Vector2d HalfAngle(const TurningHinge& fold) const;
   void TurnOtherWayRound(int part);
-  int PartOf(const Joint& fold, int side) const { return part_of_[fold.triangles[side]]; }
+  int PartOf(const TurningHinge& fold, int side) const { return part_of_[fold.triangles[side]]; }
   double Area(int f) const { return TriangleArea(first_, connectivity_.Triangles().col(f)); }
 
   const Connectivity& connectivity_;
   const Shape& first_;
-  std::vector<Joint> joints_, folds_;  // all hinges, and those that turn by 180 degrees
+  std::vector<TurningHinge> joints_, folds_;  // all hinges, and those that turn by 180 degrees
   std::vector<Eigen::Quaterniond> rotations_;
   std::vector<char> flattened_;
   std::vector<std::vector<int>> neighbours_;  // that turn with a triangle
@@ -126,9 +126,9 @@ class WaysRound {
 WaysRound::WaysRound(const Connectivity& connectivity, const Shape& first, const Shape& last)
     : connectivity_(connectivity), first_(first) {
   for (const auto& corners : connectivity.Hinges().colwise()) {
-    const Joint joint = {{FindTriangle(connectivity, corners(0), corners(1), corners(2)),
-                          FindTriangle(connectivity, corners(1), corners(0), corners(3))},
-                         corners};
+    const TurningHinge joint = {{FindTriangle(connectivity, corners(0), corners(1), corners(2)),
+                                 FindTriangle(connectivity, corners(1), corners(0), corners(3))},
+                                corners};
     joints_.push_back(joint);
     if (IsFold(corners, first, last)) folds_.push_back(joint);
   }
@@ -142,13 +142,13 @@ Turns WaysRound::Decide() {
   turns_.of_triangles = Eigen::Matrix3Xd::Zero(3, connectivity_.NumTriangles());
   for (size_t i = 0; i < parts_.size(); ++i) TakeShorterWay(static_cast<int>(i));
 
-  const auto is_decided = [&](const Joint& fold, int side) {
+  const auto is_decided = [&](const TurningHinge& fold, int side) {
     return parts_[PartOf(fold, side)].decided;
   };
   while (true) {
-    const Joint* next = nullptr;
+    const TurningHinge* next = nullptr;
     int side = 0;
-    for (const Joint& fold : folds_) {
+    for (const TurningHinge& fold : folds_) {
       const bool of_first = is_decided(fold, 0), of_second = is_decided(fold, 1);
       if (of_first && of_second) continue;
       const bool beside = of_first || of_second;
@@ -181,7 +181,7 @@ void WaysRound::FindRotations(const Shape& last) {
 // Triangles without a rotation of their own turn with any.
 void WaysRound::FindNeighbours() {
   neighbours_.resize(connectivity_.NumTriangles());
-  for (const Joint& joint : joints_) {
+  for (const TurningHinge& joint : joints_) {
     const auto [f, g] = joint.triangles;
     if (!flattened_[f] && !flattened_[g] && !TurnTogether(rotations_[f], rotations_[g])) continue;
     neighbours_[f].push_back(g);
@@ -271,7 +271,7 @@ void WaysRound::TakeShorterWay(int index) {
 }
 
 // Decides the part at `side` of a fold.
-void WaysRound::Decide(const Joint& fold, int side) {
+void WaysRound::Decide(const TurningHinge& fold, int side) {
   const int index = PartOf(fold, side);
   Part& part = parts_[index];
   for (const int f : part.triangles) part.axis += Area(f) * turns_.of_triangles.col(f);
@@ -280,7 +280,7 @@ void WaysRound::Decide(const Joint& fold, int side) {
   part.decided = true;
 }
 
-bool WaysRound::GoesOtherWayRound(const Joint& fold, int side) const {
+bool WaysRound::GoesOtherWayRound(const TurningHinge& fold, int side) const {
   const bool beside = parts_[PartOf(fold, 1 - side)].decided;
   const Eigen::Vector2d half = beside ? HalfAngle(fold) : Eigen::Vector2d::Zero();
   if (std::abs(half(0)) > kEqualWays) return half(0) < 0;
@@ -307,7 +307,7 @@ bool WaysRound::GoesOtherWayRound(const Joint& fold, int side) const {
 }
 
 // The cosine and the sine of the hinge's angle when both triangles have made half of their turns.
-Eigen::Vector2d WaysRound::HalfAngle(const Joint& fold) const {
+Eigen::Vector2d WaysRound::HalfAngle(const TurningHinge& fold) const {
   Eigen::Vector3d normals[2], edge = Eigen::Vector3d::Zero();
   for (int k = 0; k < 2; ++k) {
     const int f = fold.triangles[k];

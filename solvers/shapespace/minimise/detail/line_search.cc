@@ -11,7 +11,7 @@ namespace {
 // only be slightly flatter than at the start.
 constexpr double kDecrease = 1e-4, kFlatness = 0.9;
 // Relative differences of sums of millions of terms below this are rounding.
-constexpr double kRounding = 1e-14;
+constexpr double kValueRounding = 1e-14;
 constexpr int kMaxTrials = 20;
 // A new trial stays away from the bracket's ends by this share of its width; without a bracket it
 // goes at most kFurthest times as far.
@@ -45,8 +45,9 @@ LinePoint SearchLine(const LinePoint& start, const std::function<LinePoint(doubl
   for (int trial = 0; trial < kMaxTrials; ++trial) {
     const LinePoint point = evaluate(step);
     const bool decreases = point.value <= start.value + kDecrease * step * start.slope;
-    const bool equal = std::abs(point.value - start.value) <= kRounding * std::abs(start.value) &&
-                       point.slope <= (2 * kDecrease - 1) * start.slope;
+    const bool equal =
+        std::abs(point.value - start.value) <= kValueRounding * std::abs(start.value) &&
+        point.slope <= (2 * kDecrease - 1) * start.slope;
     if ((decreases || equal) && std::isfinite(point.slope)) {
       // A point beyond the minimum is accepted too, which saves trials, unless the decrease may be
       // due to rounding.
