@@ -2,7 +2,7 @@
 # All that a release consists of, into build/release-X.Y.Z, which is made anew:
 #   packaging/release.sh
 # X.Y.Z is the version in CMakeLists.txt. Needs a working tree without changes, root for the bare systems
-# in which packages are built, debootstrap, npm and network; takes about an hour on two cores. The
+# in which packages are built, debootstrap, npm and network; takes about two hours on two cores. The
 # same commit gives the same bytes (tests/packages/reproducible.sh). docs/RELEASING.md says what to do before
 # and after.
 set -euo pipefail
@@ -32,6 +32,10 @@ step "for browsers: npm package and pages"
 ./dev wasm
 packaging/npm.sh "$out"
 cp tools/viewer/dist/solver.html "$out/shapespace-$version.html"
+
+step "tools for Windows"
+./dev windows
+packaging/windows.sh "$out"
 
 step "wheels, source distribution"
 packaging/wheel.sh bookworm "$out"

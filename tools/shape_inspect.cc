@@ -84,8 +84,8 @@ Json PrintContent(const Soup& soup, Telling* told) {
                {"vertices", soup.NumVertices()},
                {"polygons", soup.NumPolygons()},
                {"segments", soup.segments.size()}};
-  told->Say("%s\n  %d vertices, %d polygons, %zu segments", NameOf(soup).c_str(),
-            soup.NumVertices(), soup.NumPolygons(), soup.segments.size());
+  told->Say("%s\n  %d vertices, %d polygons, %d segments", NameOf(soup).c_str(), soup.NumVertices(),
+            soup.NumPolygons(), static_cast<int>(soup.segments.size()));
   if (soup.NumVertices() > 0) {
     const Eigen::Vector3d size =
         soup.vertices.rowwise().maxCoeff() - soup.vertices.rowwise().minCoeff();

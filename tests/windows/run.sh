@@ -19,8 +19,10 @@ done
 chmod +x "$wrapped"/bin/*
 
 export WINEDEBUG=-all WINEPREFIX=${WINEPREFIX:-$wrapped/prefix}
-wine cmd /c exit >/dev/null 2>&1 # makes the prefix
+wineserver -k || true
+mkdir -p "$WINEPREFIX"
 wineserver -p # programs start in a tenth of the time while it runs
+wine cmd /c exit >/dev/null 2>&1 # makes what Windows has
 trap 'wineserver -k; cmake --preset release -USHAPESPACE_TESTED_TOOLS >/dev/null' EXIT
 cmake --preset release -DSHAPESPACE_TESTED_TOOLS="$wrapped/bin" >/dev/null
 cmake --build --preset release --target tools_test

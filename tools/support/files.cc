@@ -11,6 +11,7 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/extension.h>
+#include <shapespace/base/internal/system.h>
 #include <shapespace/files/write.h>
 #include <shapespace/output/frames.h>
 #include <shapespace/path/path_file.h>
@@ -35,7 +36,7 @@ void CheckNothingIsOverwritten(const std::vector<std::string>& inputs,
   constexpr std::int64_t kMaxNames = 20000;
   const auto key = [](const std::string& file) {
     std::error_code error;  // such as a cycle of links; opening the file will report it
-    const fs::path path = fs::weakly_canonical(fs::absolute(fs::u8path(file)), error);
+    const fs::path path = internal::PlaceOf(file, &error);
     return error ? file : path.u8string();
   };
   std::map<std::string, std::string> read, written;  // by key: the name on the command line
@@ -64,6 +65,9 @@ void CheckNothingIsOverwritten(const std::vector<std::string>& inputs,
 void CheckCanBeWritten(const std::string& file) {
   namespace fs = std::filesystem;
   if (file == "-") return;
+  if (const std::string problem = internal::ProblemWithName(file); !problem.empty()) {
+    throw FileError(file + ": " + problem);
+  }
   const fs::path path = fs::u8path(file);
   std::error_code error;
   if (fs::is_directory(path, error)) throw FileError(file + ": cannot be written: it is a folder");

@@ -24,13 +24,14 @@ constexpr size_t kMaxSites = 8, kMaxParts = 4;
 constexpr double kMinSite = 0.001;  // as a share of all deviation
 
 void PrintParts(const RigidParts& parts, Telling* told) {
-  told->Say("  parts        %zu move nearly rigidly; %.3g%% of the surface is joint\n",
-            parts.parts.size(), 100 * parts.joint_share);
-  if (parts.parts.empty()) return;
+  const auto count = static_cast<int>(parts.parts.size());
+  told->Say("  parts        %d move nearly rigidly; %.3g%% of the surface is joint\n", count,
+            100 * parts.joint_share);
+  if (count == 0) return;
   told->Say("    part  vertices    area  off a rigid motion, rms   edges, rms  turns against 1\n");
-  for (size_t i = 0; i < parts.parts.size(); ++i) {
+  for (int i = 0; i < count; ++i) {
     const RigidPart& part = parts.parts[i];
-    told->Say("    %4zu  %8d  %5.3g%%  %-8.3g (%.3g%% of size)", i + 1, part.num_vertices,
+    told->Say("    %4d  %8d  %5.3g%%  %-8.3g (%.3g%% of size)", i + 1, part.num_vertices,
               100 * part.area_share, part.residual, 100 * part.relative_residual);
     told->Say("  %9.3g%%  %.1f degrees\n", 100 * part.edge_deviation, part.turn);
   }
@@ -68,9 +69,10 @@ Json InspectPath(const std::string& file, Telling* told) {
   const PathQuality quality = MeasureQuality(path);
   const std::string beyond =
       path.extrapolated > 0 ? ", " + std::to_string(path.extrapolated) + " extrapolated" : "";
-  told->Say("%s\n  %d shapes, %zu of them given%s; %d vertices, %d triangles\n",
-            internal::Printable(file).c_str(), path.NumShapes(), path.poses.size(), beyond.c_str(),
-            connectivity.NumVertices(), connectivity.NumTriangles());
+  told->Say("%s\n  %d shapes, %d of them given%s; %d vertices, %d triangles\n",
+            internal::Printable(file).c_str(), path.NumShapes(),
+            static_cast<int>(path.poses.size()), beyond.c_str(), connectivity.NumVertices(),
+            connectivity.NumTriangles());
   told->Say("  made by      %s\n", internal::Printable(path.provenance).c_str());
   told->Say("  metric       %s; unit of length %.6g\n",
             internal::Printable(DescribeMetric(path.metric->options)).c_str(), path.metric->unit);

@@ -16,13 +16,25 @@
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+#include <tbb/task_scheduler_observer.h>
 
 #include <shapespace/base/detail/core_quota.h>
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/fork_join.h>
+#include <shapespace/base/internal/system.h>
 
 namespace shapespace {
 namespace {
+
+// Prepares the threads that TBB makes.
+class Preparation : public tbb::task_scheduler_observer {
+ public:
+  explicit Preparation(tbb::task_arena* arena) : tbb::task_scheduler_observer(*arena) {
+    observe(true);
+  }
+  ~Preparation() override { observe(false); }
+  void on_scheduler_entry(bool /*is_worker*/) override { internal::PrepareThread(); }
+};
 
 // The threads of all loops and tasks.
 struct ThreadPool {
@@ -31,6 +43,7 @@ struct ThreadPool {
   // By default TBB creates no more threads than there are cores.
   std::unique_ptr<tbb::global_control> more_than_cores;
   tbb::task_arena arena;
+  std::optional<Preparation> preparation;
   std::atomic<int> tasks{0};  // bodies of ParallelTasks that are running
 };
 
@@ -54,6 +67,7 @@ std::shared_ptr<ThreadPool> NewPool(int threads) {
         tbb::global_control::max_allowed_parallelism, static_cast<size_t>(threads));
   }
   result->arena.initialize(threads == 0 ? NumCores() : threads);
+  result->preparation.emplace(&result->arena);
   return result;
 }
 

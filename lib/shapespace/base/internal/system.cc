@@ -21,6 +21,11 @@ void RemoveFile(const char* file) { unlink(file); }
 
 std::string ProblemWithName(const std::string& /*file*/) { return {}; }
 
+std::filesystem::path PlaceOf(const std::string& file, std::error_code* error) {
+  const std::filesystem::path path = std::filesystem::absolute(file, *error);
+  return *error ? path : std::filesystem::weakly_canonical(path, *error);
+}
+
 void PrepareProcess() {
   for (const int stream : {0, 1, 2}) {
     if (fcntl(stream, F_GETFD) >= 0) continue;
@@ -30,6 +35,8 @@ void PrepareProcess() {
   }
   std::signal(SIGXFSZ, SIG_IGN);
 }
+
+void PrepareThread() {}
 
 int TerminalWidth() {
   constexpr int kUsual = 80;

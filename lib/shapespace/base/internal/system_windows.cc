@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cfloat>
 #include <csignal>
 #include <filesystem>
 
@@ -18,6 +19,8 @@
 
 namespace shapespace::internal {
 namespace {
+
+constexpr DWORD kLongestName = 32768;  // of Windows
 
 std::wstring Wide(const std::string& file) { return std::filesystem::u8path(file).wstring(); }
 
@@ -52,6 +55,31 @@ int CreateNewFile(const char* file) {
 
 void RemoveFile(const char* file) { _wunlink(Wide(file).c_str()); }
 
+std::filesystem::path PlaceOf(const std::string& file, std::error_code* error) {
+  namespace fs = std::filesystem;
+  fs::path existing = fs::absolute(fs::u8path(file), *error).lexically_normal(), rest;
+  if (*error) return existing;
+  std::wstring place(kLongestName, L'\0');
+  DWORD length = 0;
+  while (true) {
+    const HANDLE handle =
+        CreateFileW(existing.c_str(), 0, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE,
+                    nullptr, OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS, nullptr);
+    if (handle != INVALID_HANDLE_VALUE) {
+      length = GetFinalPathNameByHandleW(handle, place.data(), kLongestName, 0);
+      CloseHandle(handle);
+      break;
+    }
+    if (!existing.has_relative_path()) break;
+    rest = rest.empty() ? existing.filename() : existing.filename() / rest;
+    existing = existing.parent_path();
+  }
+  if (length > 0 && length < kLongestName) existing = place.substr(0, length);
+  place = (rest.empty() ? existing : existing / rest).wstring();
+  CharLowerBuffW(place.data(), static_cast<DWORD>(place.size()));
+  return place;
+}
+
 std::string ProblemWithName(const std::string& file) {
   // With any extension, too.
   static constexpr std::array<const char*, 4> kDevices = {"aux", "con", "nul", "prn"};
@@ -74,6 +102,8 @@ void PrepareProcess() {
     }
   }
 }
+
+void PrepareThread() { _fpreset(); }
 
 int TerminalWidth() {
   CONSOLE_SCREEN_BUFFER_INFO info = {};
