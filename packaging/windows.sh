@@ -18,7 +18,7 @@ for program in "$programs"/shape-*.exe; do
 done
 # They link the libraries of Windows alone.
 foreign=$(x86_64-w64-mingw32-objdump -p "$work/$name"/*.exe | sed -n 's/.*DLL Name: //p' | sort -u |
-  grep -viE '^(advapi32|bcrypt|dbghelp|kernel32|msvcrt|shell32|user32|ws2_32)\.dll$') || true
+  grep -viE '^(advapi32|bcrypt|dbghelp|kernel32|msvcrt|shell32|shlwapi|user32|ws2_32)\.dll$') || true
 [[ -z $foreign ]] || die "the programs need $foreign"
 cp "$project"/{LICENSE,NOTICES} "$work/$name/"
 cp "$project"/build/windows-libraries/licenses/* "$work/$name/licenses/"
