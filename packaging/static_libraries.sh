@@ -120,14 +120,13 @@ embree_for_mingw() {
 }
 build_embree() {
   # A static Embree would install a target of an older TBB, and a manual that Debian's archive lacks. Of
-  # the geometries it has the two that shapespace draws and searches; with instructions of any processor.
+  # the geometries it has those that shapespace draws and searches; with instructions of any processor.
   sed -i '/^IF (EMBREE_STATIC_LIB)/,/^ENDIF()/d' embree/common/cmake/installTBB.cmake &&
     sed -i '/readme\.pdf/d' embree/common/cmake/package.cmake &&
     { ! for_windows || embree_for_mingw; } &&
     with_cmake embree . -DEMBREE_STATIC_LIB=ON -DEMBREE_TUTORIALS=OFF -DEMBREE_ISPC_SUPPORT=OFF \
-      -DEMBREE_RAY_PACKETS=OFF -DEMBREE_GEOMETRY_QUAD=OFF -DEMBREE_GEOMETRY_CURVE=OFF \
-      -DEMBREE_GEOMETRY_SUBDIVISION=OFF -DEMBREE_GEOMETRY_INSTANCE=OFF -DEMBREE_GEOMETRY_GRID=OFF \
-      -DEMBREE_GEOMETRY_POINT=OFF -DEMBREE_MAX_ISA=SSE2
+      -DEMBREE_RAY_PACKETS=OFF -DEMBREE_GEOMETRY_QUAD=OFF -DEMBREE_GEOMETRY_SUBDIVISION=OFF \
+      -DEMBREE_GEOMETRY_INSTANCE=OFF -DEMBREE_GEOMETRY_GRID=OFF -DEMBREE_MAX_ISA=SSE2
 }
 build_openblas() {
   # What shapespace calls is of doubles, and of one thread, while several threads call at once. On

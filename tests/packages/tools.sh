@@ -20,7 +20,9 @@ tar -x -C "$root/opt" -f "$archive"  # the bare system has no xz
 name=$(basename "$archive" .tar.xz)
 inside "$root" "export PATH=/opt/$name/bin:\$PATH &&
   shape-body quadruped --pose sit,stretch --output pose%d.obj &&
-  shape-interpolate pose0.obj pose1.obj --shapes 15 --output path.png,path.glb,path.path --report report.txt"
+  shape-interpolate pose0.obj pose1.obj --shapes 15 --output path.png,path.glb,path.path --report report.txt &&
+  printf 'v 0 0 0\nv 1 0 0\nv 1 1 0\nl 1 2\nl 2 3\n' >graph0.obj && sed 's/1 1 0/0 1 0/' graph0.obj >graph1.obj &&
+  shape-interpolate graph0.obj graph1.obj --output graph.png"  # whose edges are drawn in their own way
 [[ $(head -c 8 "$root/root/path.png" | od -An -tx1 | tr -d ' \n') == 89504e470d0a1a0a ]] ||
   fail "$release: there is no picture"
 grep -q '^Termination  *converged' "$root/root/report.txt" || fail "$release: the solver did not converge"
