@@ -9,6 +9,7 @@
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/stopwatch.h>
 #include <shapespace/base/internal/task_group.h>
+#include <shapespace/base/parallel.h>
 #include <shapespace/correspondence/detail/check_input.h>
 #include <shapespace/correspondence/detail/closest.h>
 #include <shapespace/correspondence/detail/coarse_body.h>
@@ -43,6 +44,14 @@ constexpr int kSearchedOn = 10000;
 // better.
 constexpr int kRefinedOn = 4000;
 
+// Fits of a part that cost less than this many times as much as the cheapest are repeated so many
+// times, each with markers of the map that the one before it makes. Of ten cut bodies the right map
+// began with up to 1.7 times the cost of the wrong one that was the cheapest, and ended below it.
+constexpr double kRepeatedBelow = 2;
+constexpr int kRepeats = 2;
+// A vertex of the template is where a part is if the image of a vertex of the part is so near.
+constexpr double kCoveredBy = 0.05;
+
 using Markers = std::vector<CorrespondenceMarker>;
 
 // The markers on a coarser template.
@@ -57,7 +66,7 @@ Markers On(const CoarseBody& from, Markers markers) {
 struct CandidateFit {
   MapCandidate candidate;
   size_t row = 0;              // of the summary's candidates
-  std::vector<int> to_target;  // of each vertex of the coarse template
+  std::vector<int> to_target;  // of each vertex of the coarse template; -1 if a part has none
   double deformation = kNotComputed;
   MapFigures figures;
   double reverse = 1;  // the deformation of the target by the reverse fit, as a share of that with
@@ -70,6 +79,31 @@ struct CandidateFit {
 double Deformation(const SmoothStretch& stretch, const OwnFrame& frame,
                    const CorrespondenceResult& fit) {
   return stretch.Cost(frame.In(fit.fitted)) + fit.summary.uncovered + fit.summary.turned;
+}
+
+// The same of a target that is a part of what the template is: of the latter it covers as much as
+// the distances between markers say.
+double PartDeformation(const SmoothStretch& stretch, const FitBody& part, const OwnFrame& frame,
+                       const CorrespondenceResult& fit) {
+  const double scale = fit.summary.scale * part.frame.unit / frame.unit;
+  return stretch.Cost(frame.In(fit.fitted) / scale) + fit.summary.turned;
+}
+
+// For each of some vertices of the template the one of the target whose image is nearest to it; -1
+// where none is near. The images are vertices of the template.
+std::vector<int> InverseOf(const Shape& on_template, const std::vector<int>& vertices,
+                           const std::vector<int>& images) {
+  const Shape places = on_template(Eigen::all, images);
+  std::vector<int> inverse(vertices.size());
+  ParallelFor(static_cast<int>(vertices.size()), [&](int i) {
+    Eigen::Index nearest;
+    const double squared = (places.colwise() - on_template.col(vertices[i]))
+                               .colwise()
+                               .squaredNorm()
+                               .minCoeff(&nearest);
+    inverse[i] = squared < kCoveredBy * kCoveredBy ? static_cast<int>(nearest) : -1;
+  });
+  return inverse;
 }
 
 class Finder {
@@ -104,7 +138,13 @@ class Finder {
                       "; give three markers or more");
     }
     const double matching_seconds = stopwatch_.Seconds();
-    FitCandidates();
+    if (matcher_.TargetIsPart()) {
+      FitPartCandidates();
+    } else {
+      FitCandidates();
+    }
+    for (const CandidateFit& fit : fits_) rows_[fit.row].cost = fit.Cost();
+    rows_[fits_[0].row].chosen = true;
     const std::optional<size_t> other = Other();
     double certainty = kNotComputed;
     if (other) certainty = fits_[*other].Cost() / fits_[0].Cost();
@@ -155,7 +195,6 @@ class Finder {
 
   // Fits the coarsened template with each candidate's markers; cheapest first.
   void FitCandidates() {
-    const auto count = static_cast<int>(matching_.candidates.size());
     Markers all = given_;
     for (const MapCandidate& candidate : matching_.candidates) {
       const Markers markers = All(candidate.markers);
@@ -165,25 +204,97 @@ class Finder {
                                       MarkerVertices(all, &CorrespondenceMarker::template_vertex));
     const SmoothStretch stretch(coarse.body.connectivity, coarse.body.own, options_.proportions);
 
+    FitAll([&](int i, Progress* own) {
+      const MapCandidate& candidate = matching_.candidates[i];
+      const CorrespondenceResult result = Fit(coarse, target_, All(candidate.markers), own);
+      CandidateFit fit;
+      fit.candidate = candidate;
+      fit.to_target = NearestCorners(result.map.to_target, *target_.connectivity);
+      fit.deformation = Deformation(stretch, target_.frame, result);
+      fit.figures = matcher_.Compare(coarse.vertices, fit.to_target);
+      return fit;
+    });
+    FitReverse();
+    FindParts(coarse);
+  }
+
+  static Markers Reversed(Markers markers) {
+    for (CorrespondenceMarker& marker : markers) {
+      std::swap(marker.template_vertex, marker.target_vertex);
+    }
+    return markers;
+  }
+
+  // A fit of a target that is a part, all of which has a place on the template. `images` become
+  // the vertices of the template where those of the target are.
+  CandidateFit FitPart(const MapCandidate& candidate, Progress* progress,
+                       std::vector<int>* images) const {
+    const Markers markers = Reversed(All(candidate.markers));
+    const CoarseBody coarse =
+        Coarsen(target_, options_.coarsest,
+                MarkerVertices(markers, &CorrespondenceMarker::template_vertex));
+    const SmoothStretch stretch(coarse.body.connectivity, coarse.body.own, options_.proportions);
+    const CorrespondenceResult result = Fit(coarse, from_, markers, progress);
+    const std::vector<int> of_coarse = NearestCorners(result.map.to_target, *from_.connectivity);
+    CandidateFit fit;
+    fit.candidate = candidate;
+    fit.deformation = PartDeformation(stretch, coarse.body, from_.frame, result);
+    fit.figures = matcher_.Compare(of_coarse, coarse.vertices);
+    images->clear();
+    for (const int y : NearestOf(*target_.connectivity, target_.own, coarse.vertices)) {
+      images->push_back(y < 0 ? 0 : of_coarse[coarse.IndexOf(y)]);
+    }
+    return fit;
+  }
+
+  // Fits the part onto the template with each candidate's markers; cheapest first.
+  void FitPartCandidates() {
+    const CoarseBody coarse = Coarsen(from_, options_.coarsest, {});
+    std::vector<std::vector<int>> images(matching_.candidates.size());
+    FitAll([&](int i, Progress* own) {
+      CandidateFit fit = FitPart(matching_.candidates[i], own, &images[i]);
+      fit.to_target = InverseOf(from_.own, coarse.vertices, images[i]);
+      return fit;
+    });
+    const double most = kRepeatedBelow * fits_[0].Cost();
+    const auto count = static_cast<int>(std::count_if(
+        fits_.begin(), fits_.end(), [&](const auto& fit) { return fit.Cost() < most; }));
+    TaskGroup(progress_, "better markers", count).RunAll(count, [&](int i, Progress* own) {
+      CandidateFit& best = fits_[i];
+      MapCandidate candidate = best.candidate;
+      std::vector<int>& last = images[best.row];
+      try {
+        for (int repeat = 0; repeat < kRepeats; ++repeat) {
+          candidate.markers = matcher_.RefineMarkers(candidate, {}, last, given_pairs_, own);
+          CandidateFit fit = FitPart(candidate, own, &last);
+          if (fit.Cost() >= best.Cost()) continue;
+          fit.row = best.row;
+          fit.to_target = InverseOf(from_.own, coarse.vertices, last);
+          best = std::move(fit);
+        }
+      } catch (const MeshError&) {
+        // The fit's own map is no better: its markers contradict each other. The best remains.
+      }
+    });
+    for (const CandidateFit& fit : fits_) Tell(fit);
+    CheapestFirst();
+    FindParts(coarse);
+  }
+
+  // Makes the fits of all candidates by fit_candidate(i, progress) -> CandidateFit; cheapest first.
+  template <typename FitCandidate>
+  void FitAll(const FitCandidate& fit_candidate) {
+    const auto count = static_cast<int>(matching_.candidates.size());
     rows_.resize(count);
     std::vector<std::optional<CandidateFit>> fits(count);
     std::vector<std::string> problems(count);
     TaskGroup(progress_, "candidates", count).RunAll(count, [&](int i, Progress* own) {
-      const MapCandidate& candidate = matching_.candidates[i];
-      rows_[i].orientation = candidate.orientation;
-      rows_[i].markers = static_cast<int>(candidate.markers.size());
+      rows_[i].orientation = matching_.candidates[i].orientation;
+      rows_[i].markers = static_cast<int>(matching_.candidates[i].markers.size());
       try {
-        const CorrespondenceResult result = Fit(coarse, target_, All(candidate.markers), own);
-        CandidateFit& fit = fits[i].emplace();
-        fit.candidate = candidate;
-        fit.row = i;
-        fit.to_target = NearestCorners(result.map.to_target, *target_.connectivity);
-        fit.deformation = Deformation(stretch, target_.frame, result);
-        fit.figures = matcher_.Compare(coarse.vertices, fit.to_target);
-        rows_[i].deformation = fit.deformation;
-        rows_[i].isometry = fit.figures.isometry;
-        rows_[i].curvature = fit.figures.curvature;
-        rows_[i].heat = fit.figures.heat;
+        fits[i].emplace(fit_candidate(i, own));
+        fits[i]->row = i;
+        Tell(*fits[i]);
       } catch (const MeshError& error) {
         problems[i] = error.what();  // its markers contradict each other
       }
@@ -193,10 +304,16 @@ class Finder {
     }
     if (fits_.empty()) throw MeshError(problems.front());
     CheapestFirst();
-    FitReverse();
-    for (const CandidateFit& fit : fits_) rows_[fit.row].cost = fit.Cost();
-    rows_[fits_[0].row].chosen = true;
-    FindParts(coarse);
+  }
+
+  // Says the figures of a fit in its row.
+  void Tell(const CandidateFit& fit) {
+    CorrespondenceSummary::Candidate& row = rows_[fit.row];
+    row.markers = static_cast<int>(fit.candidate.markers.size());
+    row.deformation = fit.deformation;
+    row.isometry = fit.figures.isometry;
+    row.curvature = fit.figures.curvature;
+    row.heat = fit.figures.heat;
   }
 
   void CheapestFirst() {
@@ -216,10 +333,7 @@ class Finder {
     std::vector<Markers> reversed;
     Markers all;
     for (int i = 0; i < count; ++i) {
-      reversed.push_back(All(fits_[i].candidate.markers));
-      for (CorrespondenceMarker& marker : reversed[i]) {
-        std::swap(marker.template_vertex, marker.target_vertex);
-      }
+      reversed.push_back(Reversed(All(fits_[i].candidate.markers)));
       all.insert(all.end(), reversed[i].begin(), reversed[i].end());
     }
     const CoarseBody coarse = Coarsen(target_, options_.coarsest,
@@ -237,8 +351,9 @@ class Finder {
     CheapestFirst();
   }
 
-  // How far apart two fits send a vertex of the coarse template.
+  // How far apart two fits send a vertex of the coarse template, if both do.
   double Apart(const CandidateFit& a, const CandidateFit& b, int v) const {
+    if (a.to_target[v] < 0 || b.to_target[v] < 0) return 0;
     return (target_.own.col(a.to_target[v]) - target_.own.col(b.to_target[v])).norm();
   }
 

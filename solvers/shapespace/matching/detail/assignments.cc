@@ -14,7 +14,6 @@ constexpr double kShortDistance = 0.1;
 constexpr double kDifferenceWeight = 0.4;
 // For each pair of pairs that an extremity without a partner would have formed.
 constexpr double kLeftOut = 0.25;
-constexpr int kFewestTogether = 3;
 constexpr int kMostTried = 1000000;
 
 class AssignmentSearch {
@@ -22,13 +21,14 @@ class AssignmentSearch {
   // `own` has the distances of the body with fewer extremities (rows), `other` those of the other;
   // `difference` is own x other.
   AssignmentSearch(const Eigen::MatrixXd& own, const Eigen::MatrixXd& other,
-                   const Eigen::MatrixXd& difference, int count)
+                   const Eigen::MatrixXd& difference, int count, int fewest)
       : own_(own),
         other_(other),
         rows_(static_cast<int>(own.rows())),
         columns_(static_cast<int>(other.rows())),
         known_(static_cast<int>(own.cols()) - rows_),
         count_(count),
+        fewest_(fewest),
         partner_(rows_, -1),
         used_(columns_, false) {
     // added_[i] has in (r, c) what the pair (r, c) costs with the first i extremities assigned, and
@@ -85,7 +85,7 @@ class AssignmentSearch {
     for (int c = 0; c < columns_; ++c) {
       if (!used_[c]) choices.emplace_back(added_[row](row, c), c);
     }
-    const bool may_leave_out = rows_ - left_out_ + known_ > kFewestTogether;
+    const bool may_leave_out = rows_ - left_out_ + known_ > fewest_;
     if (may_leave_out) choices.emplace_back(added_[row](row, columns_), -1);
     std::stable_sort(choices.begin(), choices.end());
     for (const auto& [more, column] : choices) {
@@ -120,7 +120,7 @@ class AssignmentSearch {
   }
 
   const Eigen::MatrixXd &own_, &other_;
-  const int rows_, columns_, known_, count_;
+  const int rows_, columns_, known_, count_, fewest_;
   std::vector<Eigen::MatrixXd> added_;
   std::vector<int> partner_;
   std::vector<bool> used_;
@@ -131,12 +131,12 @@ class AssignmentSearch {
 
 }  // namespace
 
-Assignments AssignExtremities(const LandmarkDistances& distances, int count) {
+Assignments AssignExtremities(const LandmarkDistances& distances, int count, int fewest) {
   const bool swapped = distances.on_template.rows() > distances.on_target.rows();
   const Eigen::MatrixXd& own = swapped ? distances.on_target : distances.on_template;
   const Eigen::MatrixXd& other = swapped ? distances.on_template : distances.on_target;
-  AssignmentSearch search(own, other,
-                          swapped ? distances.difference.transpose() : distances.difference, count);
+  AssignmentSearch search(
+      own, other, swapped ? distances.difference.transpose() : distances.difference, count, fewest);
   search.Run();
   const auto rows = static_cast<double>(own.rows());
   const double pairs = std::max(1.0, rows * (rows - 1) / 2);

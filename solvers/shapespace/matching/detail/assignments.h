@@ -29,7 +29,7 @@ struct Assignments {
   int tried = 0;                 ///< partial assignments that were looked at
 };
 
-/// The cheapest `count` assignments that have at least three landmarks, together with the known
+/// The cheapest `count` assignments that have at least `fewest` landmarks, together with the known
 /// pairs. The cost of an assignment is
 ///   sum over pairs of pairs |d - d'| / (min(d, d') + 0.1) + weight * sum over pairs of difference,
 /// d and d' the distances between the landmarks of the two pairs, plus a constant for each pair of
@@ -37,7 +37,7 @@ struct Assignments {
 /// extremities of the body that has fewer. Found depth first, leaving out what cannot be
 /// among the best. The search ends when a million partial assignments have been looked at, which
 /// is more than there are of nine extremities on each body.
-Assignments AssignExtremities(const LandmarkDistances& distances, int count);
+Assignments AssignExtremities(const LandmarkDistances& distances, int count, int fewest = 3);
 
 }  // namespace shapespace::internal
 

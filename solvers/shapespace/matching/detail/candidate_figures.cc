@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <shapespace/base/internal/sort_unique.h>
 #include <shapespace/base/parallel.h>
@@ -23,12 +24,21 @@ float Correlation(const Eigen::ArrayXf& x, const Eigen::ArrayXf& y) {
   return squares > 0 ? (a * b).sum() / std::sqrt(squares) : 0;
 }
 
-// The correlation of the curvature at the first vertices with that at their images.
-float CurvatureAt(const Eigen::VectorXf& from, const Eigen::VectorXf& to,
-                  const std::vector<int>& images) {
-  Eigen::ArrayXf there(images.size());
-  for (size_t i = 0; i < images.size(); ++i) there(i) = to(images[i]);
-  return Correlation(from.head(images.size()).array(), there);
+// The correlation of the curvature at some vertices with that at their images.
+float CurvatureAt(const Eigen::VectorXf& from, const std::vector<int>& vertices,
+                  const Eigen::VectorXf& to, const std::vector<int>& images) {
+  Eigen::ArrayXf here(vertices.size()), there(vertices.size());
+  for (size_t i = 0; i < vertices.size(); ++i) {
+    here(i) = from(vertices[i]);
+    there(i) = to(images[vertices[i]]);
+  }
+  return Correlation(here, there);
+}
+
+std::vector<int> AllOf(const std::vector<int>& images) {
+  std::vector<int> all(images.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
 }
 
 // Some rows of a matrix.
@@ -69,12 +79,13 @@ std::vector<double> Changes(const Eigen::MatrixXf& before, const MatchingBody& t
   });
   std::vector<double> changes;
   for (const SpectralMap& map : maps) {
+    const auto scale = static_cast<float>(map.scale);
     double sum = 0;
     for (Eigen::Index i = 0; i < before.rows(); ++i) {
       const auto column =
           std::lower_bound(images.begin(), images.end(), (map.*direction)[i]) - images.begin();
       for (Eigen::Index k = 0; k < before.cols(); ++k) {
-        sum += RelativeChange(before(i, k), after((map.*direction)[k], column));
+        sum += RelativeChange(scale * before(i, k), after((map.*direction)[k], column));
       }
     }
     changes.push_back(sum / static_cast<double>(before.size()));
@@ -104,7 +115,7 @@ CandidateFigures::Side::Side(const MatchingBody& own)
 double CandidateFigures::Side::Correlate(const Eigen::MatrixXf& coefficients,
                                          const std::vector<int>& images, const Side& other) const {
   const Eigen::Index count = coefficients.rows();
-  const int oriented = std::min(kOriented, static_cast<int>(count) - 1);
+  const int oriented = std::min(kOriented, static_cast<int>(coefficients.cols()) - 1);
   const Eigen::MatrixXf pulled = functions.leftCols(count) * coefficients.middleCols(1, oriented);
   const Eigen::MatrixXf own =
       GradientTurns(*body.surface.connectivity, body.laplacian.areas, pulled, AllPairs(oriented));
@@ -118,30 +129,46 @@ double CandidateFigures::Side::Correlate(const Eigen::MatrixXf& coefficients,
   return here > 0 && there > 0 ? product / std::sqrt(here * there) : 0;
 }
 
-CandidateFigures::CandidateFigures(const MatchingBody& on_template, const MatchingBody& on_target)
-    : template_(on_template), target_(on_target) {}
+CandidateFigures::CandidateFigures(const MatchingBody& on_template, const MatchingBody& on_target,
+                                   Directions directions)
+    : template_(on_template), target_(on_target), directions_(directions) {
+  for (size_t i = 0; i < on_target.spread.size(); ++i) {
+    if (directions == Directions::kBoth || on_target.IsInner(on_target.spread[i])) {
+      inner_.push_back(static_cast<int>(i));
+    }
+  }
+}
 
 SpectralMap CandidateFigures::WithAllImages(const SpectralMap& map) const {
   const AlignedPoints points = Align(template_.at_spread, target_.at_spread, map);
-  return {NearestColumns(points.on_template, points.on_target),
-          NearestColumns(points.on_target, points.on_template), map.from_target, map.from_template};
+  SpectralMap whole = map;
+  if (directions_ == Directions::kBoth) {
+    whole.to_target = NearestColumns(points.on_template, points.on_target);
+  }
+  whole.to_template = NearestColumns(points.on_target, points.on_template);
+  return whole;
 }
 
 double CandidateFigures::Orientation(const SpectralMap& map) const {
-  return 0.5 * (template_.Correlate(map.from_target, map.to_target, target_) +
-                target_.Correlate(map.from_template, map.to_template, template_));
+  const double back = target_.Correlate(map.from_template, map.to_template, template_);
+  if (directions_ == Directions::kToTemplate) return back;
+  return 0.5 * (template_.Correlate(map.from_target, map.to_target, target_) + back);
 }
 
 double CandidateFigures::Curvature(const SpectralMap& map) const {
-  return 0.5 * (CurvatureAt(template_.curvature, target_.curvature, map.to_target) +
-                CurvatureAt(target_.curvature, template_.curvature, map.to_template));
+  const float back = CurvatureAt(target_.curvature, inner_, template_.curvature, map.to_template);
+  if (directions_ == Directions::kToTemplate) return back;
+  return 0.5 *
+         (CurvatureAt(template_.curvature, AllOf(map.to_target), target_.curvature, map.to_target) +
+          back);
 }
 
 std::vector<double> CandidateFigures::Isometry(const std::vector<SpectralMap>& maps) const {
-  std::vector<double> mean =
-      Changes(template_.between, target_.body, maps, &SpectralMap::to_target);
   const std::vector<double> back =
       Changes(target_.between, template_.body, maps, &SpectralMap::to_template);
+  if (directions_ == Directions::kToTemplate) return back;
+  std::vector<double> mean =
+      Changes(template_.between, target_.body, maps, &SpectralMap::to_target);
   for (size_t i = 0; i < maps.size(); ++i) mean[i] = 0.5 * (mean[i] + back[i]);
   return mean;
 }

@@ -10,28 +10,33 @@
 
 namespace shapespace::internal {
 
+/// Directions in which maps are known: both, or, of a target that is a part, to the template alone.
+enum class Directions { kBoth, kToTemplate };
+
 /// What tells a good map of two bodies from a bad one without fitting anything. The bodies are kept
 /// by reference. A map's vertices are indices into MatchingBody::spread.
 class CandidateFigures {
  public:
-  CandidateFigures(const MatchingBody& on_template, const MatchingBody& on_target);
+  CandidateFigures(const MatchingBody& on_template, const MatchingBody& on_target,
+                   Directions directions = Directions::kBoth);
 
   /// The map with an image for every vertex of MatchingBody::spread of both bodies, which the
   /// figures need.
   SpectralMap WithAllImages(const SpectralMap& map) const;
 
   /// The correlation of n . (grad f x grad g) on one body, f and g the images of the other's first
-  /// eigenfunctions, with the same on the other; the mean of both directions. 1 for a map that
+  /// eigenfunctions, with the same on the other; the mean of the directions. 1 for a map that
   /// keeps the orientation, -1 for one that reverses it.
   double Orientation(const SpectralMap& map) const;
 
-  /// The mean of the correlations, in both directions, of the smoothed mean curvature, positive
-  /// where the surface is convex, with that at the images.
+  /// The mean of the correlations, in all directions, of the smoothed mean curvature, positive
+  /// where the surface is convex, with that at the images; near the border of a part it counts
+  /// nothing.
   double Curvature(const SpectralMap& map) const;
 
   /// For each map, the mean relative change of distances,
   ///   |d(x, y) - d(Tx, Ty)| / ((d(x, y) + d(Tx, Ty)) / 2 + 0.1),
-  /// in both directions, over pairs of a few samples with more of them. On all threads.
+  /// in all directions, over pairs of a few samples with more of them. On all threads.
   std::vector<double> Isometry(const std::vector<SpectralMap>& maps) const;
 
  private:
@@ -52,6 +57,8 @@ class CandidateFigures {
   };
 
   const Side template_, target_;
+  const Directions directions_;
+  std::vector<int> inner_;  // indices into the target's spread vertices, whose curvature counts
 };
 
 }  // namespace shapespace::internal

@@ -48,25 +48,6 @@ SpectralMap NearestStart(const Eigen::MatrixXf& a, const Eigen::MatrixXf& b) {
   return map;
 }
 
-// The map by descriptors of landmarks.
-SpectralMap StartMap(const Landmarks& template_landmarks, int template_extremities,
-                     const Landmarks& target_landmarks, int target_extremities,
-                     const Assignment& assignment) {
-  std::vector<int> first, second;
-  for (const auto& [a, b] : assignment.pairs) {
-    first.push_back(a);
-    second.push_back(b);
-  }
-  const int known = static_cast<int>(template_landmarks.Vertices().size()) - template_extremities;
-  for (int k = 0; k < known; ++k) {
-    first.push_back(template_extremities + k);
-    second.push_back(target_extremities + k);
-  }
-  const Eigen::MatrixXf a = template_landmarks.Describe(first),
-                        b = target_landmarks.Describe(second);
-  return NearestStart(a, b);
-}
-
 // The 24 rotations that make a cube of a cube.
 std::vector<Eigen::Matrix3f> TurnsOfACube() {
   std::vector<Eigen::Matrix3f> turns;
@@ -102,48 +83,19 @@ Eigen::MatrixXf AlongAxes(const MatchingBody& body) {
   return along;
 }
 
-// Distances of the images of samples from even samples of the target, a column for each image.
-Eigen::MatrixXf ImageDistances(const MatchingBody& on_target, const SpectralMap& map) {
-  Eigen::MatrixXf distances(on_target.even.distances.cols(), map.to_target.size());
-  for (size_t i = 0; i < map.to_target.size(); ++i) {
-    distances.col(i) = on_target.even.distances.row(on_target.spread[map.to_target[i]]).transpose();
+// Distances of images of samples, which are on `body`, from its even samples, a column for each.
+Eigen::MatrixXf ImageDistances(const MatchingBody& body, const std::vector<int>& images) {
+  Eigen::MatrixXf distances(body.even.distances.cols(), images.size());
+  for (size_t i = 0; i < images.size(); ++i) {
+    distances.col(i) = body.even.distances.row(body.spread[images[i]]).transpose();
   }
   return distances;
 }
-
-void RemoveRepeated(const MatchingBody& on_target, std::vector<CandidateMap>* maps) {
-  std::vector<Eigen::MatrixXf> images;
-  std::vector<CandidateMap> different;
-  for (CandidateMap& candidate : *maps) {
-    Eigen::MatrixXf own = ImageDistances(on_target, candidate.map);
-    const bool repeated = std::any_of(images.begin(), images.end(), [&](const auto& earlier) {
-      const auto elsewhere =
-          ((earlier - own).cwiseAbs().colwise().maxCoeff().array() > kElsewhere).count();
-      return static_cast<float>(elsewhere) < kSameShare * static_cast<float>(own.cols());
-    });
-    if (repeated) continue;
-    images.push_back(std::move(own));
-    different.push_back(std::move(candidate));
-  }
-  *maps = std::move(different);
-}
-
 void ZoomOutAll(const SpectralPoints& on_template, const SpectralPoints& on_target,
                 const std::vector<int>& counts, std::vector<CandidateMap>* maps) {
   ParallelFor(static_cast<int>(maps->size()), [&](int i) {
     for (const int count : counts) ZoomOut(on_template, on_target, count, &(*maps)[i].map);
   });
-}
-
-// The vertices of `spread`, and then all others.
-std::vector<int> SpreadFirst(const MatchingBody& body) {
-  std::vector<int> vertices = body.spread;
-  std::vector<bool> has(body.surface.NumVertices(), false);
-  for (const int v : vertices) has[v] = true;
-  for (int v = 0; v < body.surface.NumVertices(); ++v) {
-    if (!has[v]) vertices.push_back(v);
-  }
-  return vertices;
 }
 
 // The map of the first vertices in `from`, as indices into `to`.
@@ -158,6 +110,42 @@ std::vector<int> Reindexed(const std::vector<int>& map, const std::vector<int>& 
 
 }  // namespace
 
+std::pair<Eigen::MatrixXf, Eigen::MatrixXf> DescribeBoth(const Landmarks& template_landmarks,
+                                                         int template_extremities,
+                                                         const Landmarks& target_landmarks,
+                                                         int target_extremities,
+                                                         const Assignment& assignment) {
+  std::vector<int> first, second;
+  for (const auto& [a, b] : assignment.pairs) {
+    first.push_back(a);
+    second.push_back(b);
+  }
+  const int known = static_cast<int>(template_landmarks.Vertices().size()) - template_extremities;
+  for (int k = 0; k < known; ++k) {
+    first.push_back(template_extremities + k);
+    second.push_back(target_extremities + k);
+  }
+  return {template_landmarks.Describe(first), target_landmarks.Describe(second)};
+}
+
+void RemoveRepeated(const MatchingBody& body, std::vector<int> SpectralMap::*direction,
+                    std::vector<CandidateMap>* maps) {
+  std::vector<Eigen::MatrixXf> images;
+  std::vector<CandidateMap> different;
+  for (CandidateMap& candidate : *maps) {
+    Eigen::MatrixXf own = ImageDistances(body, candidate.map.*direction);
+    const bool repeated = std::any_of(images.begin(), images.end(), [&](const auto& earlier) {
+      const auto elsewhere =
+          ((earlier - own).cwiseAbs().colwise().maxCoeff().array() > kElsewhere).count();
+      return static_cast<float>(elsewhere) < kSameShare * static_cast<float>(own.cols());
+    });
+    if (repeated) continue;
+    images.push_back(std::move(own));
+    different.push_back(std::move(candidate));
+  }
+  *maps = std::move(different);
+}
+
 std::vector<CandidateMap> StartAtLandmarks(const MatchingBody& on_template,
                                            const MatchingBody& on_target,
                                            const Landmarks& template_landmarks,
@@ -166,9 +154,10 @@ std::vector<CandidateMap> StartAtLandmarks(const MatchingBody& on_template,
   std::vector<CandidateMap> maps(assignments.size());
   ParallelFor(static_cast<int>(maps.size()), [&](int i) {
     maps[i].assignment = assignments[i];
-    maps[i].map =
-        StartMap(template_landmarks, static_cast<int>(on_template.extremities.size()),
-                 target_landmarks, static_cast<int>(on_target.extremities.size()), assignments[i]);
+    const auto [a, b] = DescribeBoth(
+        template_landmarks, static_cast<int>(on_template.extremities.size()), target_landmarks,
+        static_cast<int>(on_target.extremities.size()), assignments[i]);
+    maps[i].map = NearestStart(a, b);
   });
   return maps;
 }
@@ -197,10 +186,10 @@ std::vector<CandidateMap> MakeMaps(const MatchingBody& on_template, const Matchi
                               AllCounts(coarse, fine));
   ReportProgress(progress, "maps", 0, static_cast<int>(maps.size()));
   ZoomOutAll(first, second, coarse, &maps);
-  RemoveRepeated(on_target, &maps);
+  RemoveRepeated(on_target, &SpectralMap::to_target, &maps);
   ReportProgress(progress, "finer maps", 0, static_cast<int>(maps.size()));
   ZoomOutAll(first, second, fine, &maps);
-  RemoveRepeated(on_target, &maps);
+  RemoveRepeated(on_target, &SpectralMap::to_target, &maps);
   return maps;
 }
 
@@ -208,9 +197,9 @@ SpectralMap RefineMap(const MatchingBody& on_template, const MatchingBody& on_ta
                       const std::vector<int>& to_target, const std::vector<int>& to_template,
                       Progress* progress) {
   const std::vector<int> counts = Possible(kRefined, on_template, on_target);
-  const SpectralPoints first(on_template.spectrum, SpreadFirst(on_template), kRefinedSamples,
+  const SpectralPoints first(on_template.spectrum, on_template.SpreadFirst(), kRefinedSamples,
                              counts);
-  const SpectralPoints second(on_target.spectrum, SpreadFirst(on_target), kRefinedSamples, counts);
+  const SpectralPoints second(on_target.spectrum, on_target.SpreadFirst(), kRefinedSamples, counts);
   SpectralMap map;
   map.to_target = Reindexed(to_target, first.Vertices(), first.NumSamples(), second.Vertices());
   map.to_template =

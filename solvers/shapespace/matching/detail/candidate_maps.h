@@ -1,7 +1,10 @@
 #ifndef SHAPESPACE_MATCHING_DETAIL_CANDIDATE_MAPS_H_
 #define SHAPESPACE_MATCHING_DETAIL_CANDIDATE_MAPS_H_
 
+#include <utility>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include <shapespace/base/progress.h>
 #include <shapespace/matching/detail/assignments.h>
@@ -16,6 +19,14 @@ struct CandidateMap {
   Assignment assignment;
   SpectralMap map;
 };
+
+/// Descriptors of MatchingBody::spread of both bodies by the landmarks that an assignment joins and
+/// those that are known, which come after the extremities.
+std::pair<Eigen::MatrixXf, Eigen::MatrixXf> DescribeBoth(const Landmarks& template_landmarks,
+                                                         int template_extremities,
+                                                         const Landmarks& target_landmarks,
+                                                         int target_extremities,
+                                                         const Assignment& assignment);
 
 /// Starts of maps from descriptors of the landmarks: the extremities of each body, and after them
 /// as many points of each that are known to correspond.
@@ -34,6 +45,11 @@ std::vector<CandidateMap> StartAtAxes(const MatchingBody& on_template,
 /// Refines starts by ZoomOut. Of maps that are nearly the same, the first remains.
 std::vector<CandidateMap> MakeMaps(const MatchingBody& on_template, const MatchingBody& on_target,
                                    std::vector<CandidateMap> starts, Progress* progress);
+
+/// Of maps that send nearly all samples to the same places, leaves the first. `direction` says
+/// which of the map's samples: those that have images on `body`.
+void RemoveRepeated(const MatchingBody& body, std::vector<int> SpectralMap::*direction,
+                    std::vector<CandidateMap>* maps);
 
 /// A finer map of functions from one of vertices, with which each vertex of the template has one of
 /// the target, and the reverse.

@@ -28,6 +28,11 @@ T RelativeChange(T before, T after) {
 MapFigures CompareBodies(const MatchingBody& on_template, const MatchingBody& on_target,
                          const VertexPairs& pairs);
 
+/// The same for a target that is a part of what the template is, in units of the template's
+/// lengths. Curvature and heat near the target's border count nothing.
+MapFigures ComparePart(const MatchingBody& on_template, const MatchingBody& on_target,
+                       const VertexPairs& pairs);
+
 }  // namespace shapespace::internal
 
 #endif  // SHAPESPACE_MATCHING_DETAIL_COMPARE_BODIES_H_

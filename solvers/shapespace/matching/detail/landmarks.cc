@@ -12,16 +12,18 @@ namespace {
 constexpr float kTurnWeight = 0.5F;
 // Times of heat kernels, in units of the area.
 constexpr int kHeatTimes = 8;
-constexpr double kFirstTime = 0.01, kLastTime = 0.3;
+constexpr double kFirstTime = 0.01;
 
-// Logarithms of the heat kernel signature, vertices x times.
-Eigen::MatrixXd LogHeat(const Spectrum& spectrum, const std::vector<int>& vertices) {
+// Logarithms of the heat kernel signature, vertices x times, of the body enlarged by `scale`.
+Eigen::MatrixXd LogHeat(const Spectrum& spectrum, const std::vector<int>& vertices,
+                        double last_time, double scale) {
   Eigen::MatrixXd heat(vertices.size(), kHeatTimes);
   for (int t = 0; t < kHeatTimes; ++t) {
-    const double time = kFirstTime * std::pow(kLastTime / kFirstTime, t / (kHeatTimes - 1.0));
-    const Eigen::VectorXd decay = (-time * spectrum.values.array()).exp();
+    const double time = kFirstTime * std::pow(last_time / kFirstTime, t / (kHeatTimes - 1.0));
+    const Eigen::VectorXd decay = (-time / (scale * scale) * spectrum.values.array()).exp();
     for (size_t i = 0; i < vertices.size(); ++i) {
-      heat(i, t) = std::log(spectrum.functions.row(vertices[i]).cwiseAbs2().dot(decay));
+      heat(i, t) = std::log(spectrum.functions.row(vertices[i]).cwiseAbs2().dot(decay)) -
+                   2 * std::log(scale);
     }
   }
   return heat;
@@ -69,8 +71,10 @@ Eigen::MatrixXf Landmarks::Describe(const std::vector<int>& chosen) const {
 }
 
 Eigen::MatrixXd HeatDifference(const Spectrum& first, const std::vector<int>& first_vertices,
-                               const Spectrum& second, const std::vector<int>& second_vertices) {
-  const Eigen::MatrixXd a = LogHeat(first, first_vertices), b = LogHeat(second, second_vertices);
+                               const Spectrum& second, const std::vector<int>& second_vertices,
+                               double last_time, double scale) {
+  const Eigen::MatrixXd a = LogHeat(first, first_vertices, last_time, 1),
+                        b = LogHeat(second, second_vertices, last_time, scale);
   Eigen::MatrixXd difference(a.rows(), b.rows());
   for (Eigen::Index i = 0; i < a.rows(); ++i) {
     for (Eigen::Index j = 0; j < b.rows(); ++j) {

@@ -36,9 +36,13 @@ class Landmarks {
 /// How different the surroundings of vertices of two bodies are: the mean absolute difference of
 /// the logarithms of their heat kernel signatures (J. Sun, M. Ovsjanikov and L. Guibas, "A concise
 /// and provably informative multi-scale signature based on heat diffusion", SGP 2009), at times
-/// that tell how thin and long a limb is.
+/// up to `last_time`, in units of the first body's area. The second body is larger by `scale`.
 Eigen::MatrixXd HeatDifference(const Spectrum& first, const std::vector<int>& first_vertices,
-                               const Spectrum& second, const std::vector<int>& second_vertices);
+                               const Spectrum& second, const std::vector<int>& second_vertices,
+                               double last_time, double scale);
+
+/// Until then heat tells how thin and long a limb is.
+inline constexpr double kLimbTime = 0.3;
 
 }  // namespace shapespace::internal
 

@@ -13,6 +13,10 @@ constexpr int kSpread = 1500;
 constexpr int kSpreadFunctions = 40;
 // Functions that remain of what is smoothed.
 constexpr int kSmooth = 60;
+// An extremity nearer to the border is the far corner of a cut, not the end of a limb.
+constexpr float kCutOff = 0.04F;
+// Heat of the time by which bodies are compared spreads over 0.05 (`CompareBodies`).
+constexpr float kBesideBorder = 0.06F;
 
 // The embedding of Rustamov, "Laplace-Beltrami eigenfunctions for deformation invariant shape
 // representation" (SGP 2007), in whose distances vertices are spread about as evenly as along the
@@ -32,15 +36,22 @@ MatchingBody::MatchingBody(const std::string& name, const Connectivity& connecti
                            const Shape& shape, Progress* progress)
     : surface(MakeWorkingSurface(name, connectivity, shape, progress)),
       graph(*surface.connectivity, surface.shape),
-      laplacian(MakeLaplacian(*surface.connectivity, surface.shape)) {
+      laplacian(MakeLaplacian(*surface.connectivity, surface.shape)),
+      border(*surface.connectivity, surface.shape) {
   ReportProgress(progress, "eigenfunctions of the " + name, 0, 0);
   spectrum = ComputeSpectrum(laplacian, kFunctions);
   ReportProgress(progress, "distances on the " + name, 0, 0);
   even = SampleEvenly(graph, surface.shape, laplacian.areas, kEvenSamples);
   ReportProgress(progress, "extremities of the " + name, 0, 0);
   spread = SpreadVertices(spectrum, even.vertices.front());
-  extremities =
-      PrincipalExtremities(FindExtremities(graph, even, laplacian.areas, kLeastPersistence));
+  std::vector<Extremity> all = FindExtremities(graph, even, laplacian.areas, kLeastPersistence);
+  extremities = PrincipalExtremities(all);
+  from_border = graph.FromAny(border.vertices);
+  all.erase(
+      std::remove_if(all.begin(), all.end(),
+                     [&](const Extremity& end) { return from_border(end.vertex) <= kCutOff; }),
+      all.end());
+  inner_extremities = PrincipalExtremities(all);
 }
 
 Eigen::MatrixXf MatchingBody::Smooth(const Eigen::MatrixXf& field,
@@ -51,6 +62,18 @@ Eigen::MatrixXf MatchingBody::Smooth(const Eigen::MatrixXf& field,
   Eigen::MatrixXf at_rows(rows.size(), functions.cols());
   for (size_t i = 0; i < rows.size(); ++i) at_rows.row(i) = functions.row(rows[i]).cast<float>();
   return at_rows * shares;
+}
+
+bool MatchingBody::IsInner(int vertex) const { return from_border(vertex) > kBesideBorder; }
+
+std::vector<int> MatchingBody::SpreadFirst() const {
+  std::vector<int> vertices = spread;
+  std::vector<bool> has(surface.NumVertices(), false);
+  for (const int v : vertices) has[v] = true;
+  for (int v = 0; v < surface.NumVertices(); ++v) {
+    if (!has[v]) vertices.push_back(v);
+  }
+  return vertices;
 }
 
 }  // namespace shapespace::internal

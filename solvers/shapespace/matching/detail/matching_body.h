@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include <shapespace/base/progress.h>
+#include <shapespace/matching/detail/border.h>
 #include <shapespace/matching/detail/extremities.h>
 #include <shapespace/matching/detail/farthest_points.h>
 #include <shapespace/matching/detail/laplacian.h>
@@ -27,6 +28,16 @@ struct MatchingBody {
   /// eigenfunctions, at chosen vertices: rows.size() x columns.
   Eigen::MatrixXf Smooth(const Eigen::MatrixXf& field, const std::vector<int>& rows) const;
 
+  /// The vertices of `spread`, and then all others.
+  std::vector<int> SpreadFirst() const;
+
+  /// Whether it lacks a part: has a border longer than that of a hole.
+  bool IsOpen() const { return border.longest > kLongestHole; }
+
+  /// Whether a vertex is so far from the border that curvature and heat there are those of the
+  /// body.
+  bool IsInner(int vertex) const;
+
   WorkingSurface surface;
   SurfaceGraph graph;
   Laplacian laplacian;
@@ -34,6 +45,10 @@ struct MatchingBody {
   EvenSamples even;              ///< 200, evenly along the surface
   std::vector<int> spread;       ///< 1500, evenly among the first eigenfunctions
   std::vector<int> extremities;  ///< the principal ones, in descending order of persistence
+  SurfaceBorder border;
+  Eigen::VectorXf from_border;  ///< of each vertex, its distance; infinite if there is no border
+  /// The principal ones among extremities that are not where something is cut off.
+  std::vector<int> inner_extremities;
 };
 
 }  // namespace shapespace::internal

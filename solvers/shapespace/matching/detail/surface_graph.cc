@@ -125,6 +125,10 @@ Eigen::VectorXf SurfaceGraph::Search(const std::vector<int>& sources,
 
 Eigen::VectorXf SurfaceGraph::From(int source) const { return Search({source}, nullptr); }
 
+Eigen::VectorXf SurfaceGraph::FromAny(const std::vector<int>& sources) const {
+  return Search(sources, nullptr);
+}
+
 Eigen::MatrixXf SurfaceGraph::FromEach(const std::vector<int>& sources) const {
   Eigen::MatrixXf distances(NumVertices(), sources.size());
   ParallelFor(static_cast<int>(sources.size()),

@@ -29,7 +29,10 @@ class SurfaceGraph {
   /// The distance of each vertex from `source`; infinite if there is no connection.
   Eigen::VectorXf From(int source) const;
 
-  /// The same for several sources, one column each, on all threads.
+  /// The distance of each vertex from the nearest of several sources; infinite if there are none.
+  Eigen::VectorXf FromAny(const std::vector<int>& sources) const;
+
+  /// The distances from each of several sources, one column each, on all threads.
   Eigen::MatrixXf FromEach(const std::vector<int>& sources) const;
 
   /// The source nearest to each vertex, as an index into `sources`; -1 if there is no connection.

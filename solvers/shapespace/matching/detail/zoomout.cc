@@ -58,17 +58,31 @@ void ZoomOut(const SpectralPoints& on_template, const SpectralPoints& on_target,
       NearestColumns(points.on_target.leftCols(on_target.NumSamples()), points.on_template);
 }
 
+void ZoomOutFromPart(const SpectralPoints& on_template, const SpectralPoints& on_target, int count,
+                     int target_count, SpectralMap* map) {
+  const Eigen::MatrixXf pulled = on_target.Coefficients(
+      target_count, Gather(on_template.Functions(), count, map->to_template));
+  map->from_target = pulled.transpose();
+  // The target's functions, 0 outside of it, have these shares of the template's: their integrals
+  // are over an area that is scale^2 of the template's.
+  map->from_template = static_cast<float>(map->scale * map->scale) * pulled;
+  const AlignedPoints points = Align(on_template.Functions(), on_target.Functions(), *map);
+  map->to_template =
+      NearestColumns(points.on_target.leftCols(on_target.NumSamples()), points.on_template);
+}
+
 AlignedPoints Align(const Eigen::MatrixXf& template_functions,
                     const Eigen::MatrixXf& target_functions, const SpectralMap& map) {
-  const Eigen::Index count = map.from_target.rows();
-  const auto first = template_functions.topRows(count), second = target_functions.topRows(count);
+  const Eigen::Index count = map.from_target.rows(), target_count = map.from_target.cols();
+  const auto first = template_functions.topRows(count),
+             second = target_functions.topRows(target_count);
   AlignedPoints points;
-  points.on_template.resize(2 * count, first.cols());
+  points.on_template.resize(count + target_count, first.cols());
   points.on_template.topRows(count) = first;
-  points.on_template.bottomRows(count).noalias() = map.from_template * first;
-  points.on_target.resize(2 * count, second.cols());
+  points.on_template.bottomRows(target_count).noalias() = map.from_template * first;
+  points.on_target.resize(count + target_count, second.cols());
   points.on_target.topRows(count).noalias() = map.from_target * second;
-  points.on_target.bottomRows(count) = second;
+  points.on_target.bottomRows(target_count) = second;
   return points;
 }
 

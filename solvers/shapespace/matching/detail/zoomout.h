@@ -40,6 +40,8 @@ struct SpectralMap {
   /// Coefficients of a function on the target -> of that function on the template, and the
   /// reverse: k x k. Empty before the first step.
   Eigen::MatrixXf from_target, from_template;
+  /// Of a map of a part: lengths on the target, times this, are those on the template.
+  double scale = 1;
 };
 
 /// One step of ZoomOut in both directions (S. Melzi, J. Ren, E. Rodola, A. Sharma, P. Wonka and M.
@@ -50,8 +52,15 @@ struct SpectralMap {
 void ZoomOut(const SpectralPoints& on_template, const SpectralPoints& on_target, int count,
              SpectralMap* map);
 
+/// One step for a target that is a part of what the template is, enlarged by map->scale: from the
+/// target to the template alone, with `count` functions of the template and, of the target,
+/// `target_count`, those that vary no faster (E. Rodola, L. Cosmo, M. Bronstein, A. Torsello and D.
+/// Cremers, "Partial functional correspondence", 2017). Of map->to_target nothing is known.
+void ZoomOutFromPart(const SpectralPoints& on_template, const SpectralPoints& on_target, int count,
+                     int target_count, SpectralMap* map);
+
 /// Points of both bodies in the space in which ZoomOut searches the nearest ones, a column for each
-/// column of the given functions, of which the map's k are used.
+/// column of the given functions, of which those of the map are used.
 struct AlignedPoints {
   Eigen::MatrixXf on_template, on_target;
 };

@@ -16,6 +16,7 @@
 #include <shapespace/matching/detail/markers.h>
 #include <shapespace/matching/detail/matching_body.h>
 #include <shapespace/matching/detail/nearest_columns.h>
+#include <shapespace/matching/detail/part_maps.h>
 
 namespace shapespace::internal {
 namespace {
@@ -89,9 +90,8 @@ std::string TooFewVertices(const std::string& name, const MatchingBody& body) {
          " are needed";
 }
 
-std::vector<int> LandmarkVertices(const MatchingBody& body, const VertexPairs& known,
+std::vector<int> LandmarkVertices(std::vector<int> vertices, const VertexPairs& known,
                                   int std::pair<int, int>::*side) {
-  std::vector<int> vertices = body.extremities;
   for (size_t k = 0; k < std::min(known.size(), kMostKnown); ++k) {
     vertices.push_back(known[k].*side);
   }
@@ -100,24 +100,35 @@ std::vector<int> LandmarkVertices(const MatchingBody& body, const VertexPairs& k
 
 AlignedPoints AlignAll(const MatchingBody& on_template, const MatchingBody& on_target,
                        const SpectralMap& map) {
-  const Eigen::Index count = map.from_target.rows();
-  const auto functions = [count](const MatchingBody& body) -> Eigen::MatrixXf {
+  const auto functions = [](const MatchingBody& body, Eigen::Index count) -> Eigen::MatrixXf {
     return body.spectrum.functions.leftCols(count).transpose().cast<float>();
   };
-  return Align(functions(on_template), functions(on_target), map);
+  return Align(functions(on_template, map.from_target.rows()),
+               functions(on_target, map.from_target.cols()), map);
 }
 
 SpectralMap FunctionMap(const MapCandidate& candidate) {
   return {{}, {}, candidate.from_target, candidate.from_template};
 }
 
-bool Contradicts(const MatchingBody& on_target, const AlignedPoints& points,
-                 const VertexPairs& known) {
+// Whether the map of a body's points to another's misses one of the pairs.
+bool Contradicts(const Eigen::MatrixXf& points, const MatchingBody& to_body,
+                 const Eigen::MatrixXf& to_points, const VertexPairs& known) {
   for (const auto& [from, to] : known) {
-    const int image = NearestColumns(points.on_template.col(from), points.on_target)[0];
-    if (on_target.graph.From(to)(image) > kContradicts) return true;
+    const int image = NearestColumns(points.col(from), to_points)[0];
+    if (to_body.graph.From(to)(image) > kContradicts) return true;
   }
   return false;
+}
+
+// How far apart two vertices are, in a straight line.
+double StraightDistance(const MatchingBody& body, int v, int w) {
+  return (body.surface.shape.col(v) - body.surface.shape.col(w)).norm();
+}
+
+VertexPairs Swapped(VertexPairs pairs) {
+  for (auto& pair : pairs) std::swap(pair.first, pair.second);
+  return pairs;
 }
 
 VertexPairs InBodies(const VertexPairs& pairs, const WorkingSurface& on_template,
@@ -132,11 +143,18 @@ VertexPairs InBodies(const VertexPairs& pairs, const WorkingSurface& on_template
 // The given pairs, and markers of the map beside them.
 VertexPairs AllMarkers(const MatchingBody& on_template, const MatchingBody& on_target,
                        const SpectralMap& map, const VertexPairs& extremities,
-                       const VertexPairs& given,
+                       const VertexPairs& given, Directions directions,
                        const std::function<bool(int from, int to)>& admits) {
+  const AlignedPoints points = AlignAll(on_template, on_target, map);
+  const VertexPairs known = OnWorkingSurfaces(given, on_template.surface, on_target.surface);
+  // Those of a part are spread over the part, away from its border.
   const VertexPairs found = InBodies(
-      ChooseMarkers(on_template, AlignAll(on_template, on_target, map), extremities,
-                    OnWorkingSurfaces(given, on_template.surface, on_target.surface), admits),
+      directions == Directions::kBoth
+          ? ChooseMarkers(on_template, points, extremities, known, admits)
+          : Swapped(ChooseMarkers(
+                on_target, {points.on_target, points.on_template}, Swapped(extremities),
+                Swapped(known),
+                [&](int from, int to) { return on_target.IsInner(from) && admits(to, from); })),
       on_template.surface, on_target.surface);
   VertexPairs all = given;
   all.insert(all.end(), found.begin(), found.end());
@@ -159,13 +177,16 @@ std::vector<CandidateMap> FindMaps(const MatchingBody& first, const MatchingBody
     matching->map_seconds = stopwatch.Seconds();
     return maps;
   }
-  const Landmarks on_template(first, LandmarkVertices(first, known, &std::pair<int, int>::first));
-  const Landmarks on_target(second, LandmarkVertices(second, known, &std::pair<int, int>::second));
-  const Assignments assignments = AssignExtremities(
-      {on_template.Between(matching->template_extremities),
-       on_target.Between(matching->target_extremities),
-       HeatDifference(first.spectrum, first.extremities, second.spectrum, second.extremities)},
-      count);
+  const Landmarks on_template(
+      first, LandmarkVertices(first.extremities, known, &std::pair<int, int>::first));
+  const Landmarks on_target(
+      second, LandmarkVertices(second.extremities, known, &std::pair<int, int>::second));
+  const Assignments assignments =
+      AssignExtremities({on_template.Between(matching->template_extremities),
+                         on_target.Between(matching->target_extremities),
+                         HeatDifference(first.spectrum, first.extremities, second.spectrum,
+                                        second.extremities, kLimbTime, 1)},
+                        count, kFewestLandmarks);
   matching->assignments_tried = assignments.tried;
   matching->assignment_seconds = stopwatch.Seconds();
   stopwatch = Stopwatch();
@@ -176,12 +197,33 @@ std::vector<CandidateMap> FindMaps(const MatchingBody& first, const MatchingBody
   return maps;
 }
 
+std::vector<CandidateMap> FindPartMaps(const MatchingBody& first, const MatchingBody& second,
+                                       const VertexPairs& known, int count, Progress* progress,
+                                       Matching* matching) {
+  Stopwatch stopwatch;
+  ReportProgress(progress, "extremities", 0, 0);
+  const Landmarks on_template(
+      first, LandmarkVertices(first.inner_extremities, known, &std::pair<int, int>::first));
+  const Landmarks on_target(
+      second, LandmarkVertices(second.inner_extremities, known, &std::pair<int, int>::second));
+  const std::vector<ScaledAssignment> assignments =
+      AssignAtScales(first, on_template, second, on_target, count);
+  matching->assignments_tried = static_cast<int>(assignments.size());
+  matching->assignment_seconds = stopwatch.Seconds();
+  stopwatch = Stopwatch();
+  std::vector<CandidateMap> maps =
+      MakePartMaps(first, on_template, second, on_target, assignments, progress);
+  matching->map_seconds = stopwatch.Seconds();
+  return maps;
+}
+
 // The maps that keep orientation and agree with the known pairs, with their figures. Extremities
 // are vertices of the working surfaces.
 std::vector<MapCandidate> Judge(const MatchingBody& first, const MatchingBody& second,
                                 const std::vector<CandidateMap>& maps, const VertexPairs& known,
-                                double least_orientation) {
-  const CandidateFigures figures(first, second);
+                                double least_orientation, Directions directions) {
+  const bool is_part = directions == Directions::kToTemplate;
+  const CandidateFigures figures(first, second, directions);
   std::vector<SpectralMap> whole(maps.size());
   std::vector<double> orientations(maps.size());
   ParallelFor(static_cast<int>(maps.size()), [&](int i) {
@@ -193,14 +235,22 @@ std::vector<MapCandidate> Judge(const MatchingBody& first, const MatchingBody& s
   for (size_t i = 0; i < maps.size(); ++i) {
     SpectralMap& map = whole[i];
     if (orientations[i] < least_orientation) continue;
-    if (!known.empty() && Contradicts(second, AlignAll(first, second, map), known)) continue;
+    if (!known.empty()) {
+      const AlignedPoints points = AlignAll(first, second, map);
+      if (is_part ? Contradicts(points.on_target, first, points.on_template, Swapped(known))
+                  : Contradicts(points.on_template, second, points.on_target, known)) {
+        continue;
+      }
+    }
     MapCandidate candidate;
     candidate.orientation = orientations[i];
     candidate.curvature = figures.Curvature(map);
     candidate.from_target = map.from_target;
     candidate.from_template = map.from_template;
     for (const auto& [a, b] : maps[i].assignment.pairs) {
-      candidate.extremities.emplace_back(first.extremities[a], second.extremities[b]);
+      candidate.extremities.emplace_back(
+          (is_part ? first.inner_extremities : first.extremities)[a],
+          (is_part ? second.inner_extremities : second.extremities)[b]);
     }
     candidates.push_back(std::move(candidate));
     admitted.push_back(std::move(map));
@@ -255,24 +305,35 @@ SurfaceMatcher::SurfaceMatcher(const Connectivity& template_connectivity,
 
 SurfaceMatcher::~SurfaceMatcher() = default;
 
+bool SurfaceMatcher::TargetIsPart() const {
+  return target_->IsOpen() && !template_->IsOpen() &&
+         target_->inner_extremities.size() >= kFewestOfAPart &&
+         template_->inner_extremities.size() >= kFewestOfAPart;
+}
+
 Matching SurfaceMatcher::FindCandidates(const std::vector<std::pair<int, int>>& given,
                                         Progress* progress) const {
   const MatchingBody &first = *template_, &second = *target_;
   CheckPairs(given, first.surface, second.surface);
   const VertexPairs known = OnWorkingSurfaces(given, first.surface, second.surface);
   Matching matching;
-  matching.template_extremities = static_cast<int>(first.extremities.size());
-  matching.target_extremities = static_cast<int>(second.extremities.size());
+  const bool is_part = TargetIsPart();
+  const Directions directions = is_part ? Directions::kToTemplate : Directions::kBoth;
+  const auto extremities = [&](const MatchingBody& body) {
+    return static_cast<int>((is_part ? body.inner_extremities : body.extremities).size());
+  };
+  matching.template_extremities = extremities(first);
+  matching.target_extremities = extremities(second);
   matching.problem = TooFewVertices("template", first);
   if (matching.problem.empty()) matching.problem = TooFewVertices("target", second);
   if (!matching.problem.empty()) return matching;
-  const std::vector<CandidateMap> maps =
-      FindMaps(first, second, known, options_.assignments, progress, &matching);
+  const std::vector<CandidateMap> maps = (is_part ? FindPartMaps : FindMaps)(
+      first, second, known, options_.assignments, progress, &matching);
   matching.maps = static_cast<int>(maps.size());
 
   Stopwatch stopwatch;
   ReportProgress(progress, "figures of maps", 0, matching.maps);
-  matching.candidates = Judge(first, second, maps, known, options_.least_orientation);
+  matching.candidates = Judge(first, second, maps, known, options_.least_orientation, directions);
   matching.maps_refused = matching.maps - static_cast<int>(matching.candidates.size());
   matching.figure_seconds = stopwatch.Seconds();
   if (matching.candidates.empty()) {
@@ -288,7 +349,7 @@ Matching SurfaceMatcher::FindCandidates(const std::vector<std::pair<int, int>>& 
   ParallelFor(static_cast<int>(matching.candidates.size()), [&](int i) {
     MapCandidate& candidate = matching.candidates[i];
     candidate.markers = AllMarkers(first, second, FunctionMap(candidate), candidate.extremities,
-                                   given, [](int, int) { return true; });
+                                   given, directions, [](int, int) { return true; });
     candidate.extremities = InBodies(candidate.extremities, first.surface, second.surface);
   });
   matching.marker_seconds = stopwatch.Seconds();
@@ -299,8 +360,8 @@ MapFigures SurfaceMatcher::Compare(const std::vector<int>& vertices,
                                    const std::vector<int>& images) const {
   VertexPairs pairs;
   for (size_t i = 0; i < vertices.size(); ++i) pairs.emplace_back(vertices[i], images[i]);
-  return CompareBodies(*template_, *target_,
-                       OnWorkingSurfaces(pairs, template_->surface, target_->surface));
+  return (TargetIsPart() ? ComparePart : CompareBodies)(
+      *template_, *target_, OnWorkingSurfaces(pairs, template_->surface, target_->surface));
 }
 
 std::vector<int> SurfaceMatcher::NearestOf(const std::vector<int>& vertices) const {
@@ -333,17 +394,21 @@ std::vector<std::pair<int, int>> SurfaceMatcher::RefineMarkers(
     const std::vector<int>& to_template, const std::vector<std::pair<int, int>>& given,
     Progress* progress) const {
   const MatchingBody &first = *template_, &second = *target_;
+  const bool is_part = TargetIsPart();
+  const Directions directions = is_part ? Directions::kToTemplate : Directions::kBoth;
   CheckPairs(given, first.surface, second.surface);
-  const std::vector<int> there = OnSurfaces("template", to_target, first.surface, second.surface);
+  std::vector<int> there;
+  if (!is_part) there = OnSurfaces("template", to_target, first.surface, second.surface);
   const std::vector<int> back = OnSurfaces("target", to_template, second.surface, first.surface);
-  const SpectralMap map = RefineMap(first, second, there, back, progress);
+  const SpectralMap map = is_part ? RefinePartMap(first, second, back, progress)
+                                  : RefineMap(first, second, there, back, progress);
   VertexPairs extremities;
   for (const auto& [from, to] : candidate.extremities) {
     extremities.emplace_back(first.surface.nearest[from], second.surface.nearest[to]);
   }
-  const Shape& shape = second.surface.shape;
-  return AllMarkers(first, second, map, extremities, given, [&](int from, int to) {
-    return (shape.col(to) - shape.col(there[from])).norm() <= kAgrees;
+  return AllMarkers(first, second, map, extremities, given, directions, [&](int from, int to) {
+    return is_part ? StraightDistance(first, back[to], from) <= kAgrees
+                   : StraightDistance(second, there[from], to) <= kAgrees;
   });
 }
 

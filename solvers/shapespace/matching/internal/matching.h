@@ -47,8 +47,8 @@ struct MapFigures {
   double Cost() const;
 };
 
-/// A map between template and target that was found from their inner geometry alone. Vertices have
-/// the numbers that they have in the two bodies.
+/// A map between template and target, or of a target that is a part to the template, that was found
+/// from their inner geometry alone. Vertices have the numbers that they have in the two bodies.
 struct MapCandidate {
   std::vector<std::pair<int, int>> extremities;  ///< which of the template is which of the target
   /// Pairs of corresponding vertices, spread over the body: first those that were given, then
@@ -59,7 +59,7 @@ struct MapCandidate {
   double curvature = kNotComputed;    ///< correlation of mean curvature, at most 1
   double orientation = kNotComputed;  ///< 1 if the map keeps outsides outside, -1 if it does not
   /// The map of functions: coefficients in the target's first k eigenfunctions -> those in the
-  /// template's, and the reverse, k x k.
+  /// template's, and the reverse, k x k; of a part, whose functions are fewer, k x l and l x k.
   Eigen::MatrixXf from_target, from_template;
 
   /// Less is better. It says whether a candidate is worth a fit, not which is right.
@@ -85,6 +85,10 @@ struct Matching {
 /// map by ZoomOut; figures of the maps say which of them are worth a fit. Of bodies with several
 /// components the one of the largest area is mapped.
 ///
+/// A target with a long border is taken for a part of what the template is, if that has none: maps
+/// then go from the target to the template alone, under several scales, and extremities on the
+/// border are none.
+///
 /// Position, orientation and size of the bodies do not matter. Results are the same for any number
 /// of threads. Meshes of more than some ten thousand vertices are decimated first; all else takes
 /// no more time and memory for them.
@@ -98,6 +102,10 @@ class SurfaceMatcher {
                  const MatchingOptions& options = {}, Progress* progress = nullptr);
   ~SurfaceMatcher();
 
+  /// Whether the target is taken for a part of what the template is: it is open, which the template
+  /// is not, and has two extremities at least away from its border.
+  bool TargetIsPart() const;
+
   /// `given` are pairs of vertices that are known to correspond; a single one may settle what is
   /// left and right. Candidates that contradict them are refused.
   /// \throw MeshError if a body has no such vertex; Cancelled.
@@ -106,7 +114,8 @@ class SurfaceMatcher {
 
   /// Markers of a map that was fitted with those of a candidate: as there, with finer detail, and
   /// without those on whose place the fit does not agree. `to_target` has for each vertex of the
-  /// template the one of the target nearest to its place in the fit, `to_template` the reverse.
+  /// template the one of the target nearest to its place in the fit, `to_template` the reverse. If
+  /// the target is a part, `to_target` is not read.
   /// \throw MeshError if they have other numbers of entries, or entries out of range; Cancelled.
   std::vector<std::pair<int, int>> RefineMarkers(const MapCandidate& candidate,
                                                  const std::vector<int>& to_target,

@@ -1,0 +1,246 @@
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+
+#include <shapespace/bodies/quadruped.h>
+#include <shapespace/correspondence/correspondence.h>
+#include <shapespace/matching/detail/border.h>
+#include <shapespace/matching/detail/matching_body.h>
+#include <shapespace/matching/detail/part_maps.h>
+#include <shapespace/matching/internal/matching.h>
+
+#include "support/threads.h"
+
+// Targets that are a part of what the template is.
+
+namespace shapespace::internal {
+namespace {
+
+struct Part {
+  std::shared_ptr<const Connectivity> connectivity;
+  Shape shape;
+  std::vector<int> vertices;  // per vertex, its number in the body of which it is a part
+};
+
+// The triangles of a body all of whose corners are kept, in `shape`.
+template <typename Keep>
+Part PartOf(const SkinnedBody& body, const Shape& shape, const Keep& keep) {
+  const Shape rest = body.pose("stand");
+  std::vector<int> index(rest.cols(), -1);
+  Part part;
+  std::vector<int> triangles;
+  for (int f = 0; f < body.connectivity->NumTriangles(); ++f) {
+    const auto t = body.connectivity->Triangles().col(f);
+    if (!keep(rest.col(t(0))) || !keep(rest.col(t(1))) || !keep(rest.col(t(2)))) continue;
+    triangles.push_back(f);
+    for (const int v : t) index[v] = 0;
+  }
+  for (int v = 0; v < rest.cols(); ++v) {
+    if (index[v] < 0) continue;
+    index[v] = static_cast<int>(part.vertices.size());
+    part.vertices.push_back(v);
+  }
+  const Eigen::Matrix3Xi chosen = body.connectivity->Triangles()(Eigen::all, triangles);
+  part.connectivity = Connectivity::FromTriangles(
+      static_cast<int>(part.vertices.size()), chosen.unaryExpr([&](int v) { return index[v]; }));
+  part.shape = shape(Eigen::all, part.vertices);
+  return part;
+}
+
+double Area(const Connectivity& connectivity, const Shape& shape) {
+  double area = 0;
+  for (const auto& t : connectivity.Triangles().colwise()) {
+    const Eigen::Vector3d a = shape.col(t(0));
+    area += 0.5 * (shape.col(t(1)) - a).cross(shape.col(t(2)) - a).norm();
+  }
+  return area;
+}
+
+Shape WithNoise(Shape shape, double deviation) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal(0, deviation);
+  for (double& coordinate : shape.reshaped()) coordinate += normal(random);
+  return shape;
+}
+
+// An animal that stands, and another mesh of it in a pose, without the hind legs, the tail, and
+// what is between them: 30 % of the area.
+struct CutAnimal {
+  SkinnedBody body;
+  Shape rest;
+  Part part;
+  Shape places;  // of each vertex of the part, its place on the template
+
+  explicit CutAnimal(const std::string& pose = "stride", double noise = 0.002)
+      : body(MakeQuadruped(3000)), rest(body.pose("stand")) {
+    const SkinnedBody other = MakeQuadruped(4000);
+    part = PartOf(other, WithNoise(other.pose(pose), noise),
+                  [](const Eigen::Vector3d& p) { return p.z() > kCut; });
+    places = other.pose("stand")(Eigen::all, part.vertices);
+  }
+
+  SurfaceMatcher Match() const {
+    return {*body.connectivity, rest, *part.connectivity, part.shape};
+  }
+  // The mean distance of places from those that are right, as a share of the template's root area.
+  double Error(const Shape& found) const {
+    return (found - places).colwise().norm().mean() / std::sqrt(Area(*body.connectivity, rest));
+  }
+
+  static constexpr double kCut = -0.25;
+};
+
+TEST(SurfaceBorder, HasTheLengthOfItsLongestPart) {
+  // Two squares of sides 1 and 2, and a tetrahedron, which has no border.
+  Shape shape(3, 12);
+  shape << 0, 1, 1, 0, 5, 7, 7, 5, 9, 10, 9, 9,  //
+      0, 0, 1, 1, 0, 0, 2, 2, 0, 0, 1, 0,        //
+      0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1;
+  Eigen::Matrix3Xi triangles(3, 8);
+  triangles << 0, 0, 4, 4, 8, 8, 8, 9,  //
+      1, 2, 5, 6, 10, 9, 11, 10,        //
+      2, 3, 6, 7, 9, 11, 10, 11;
+  const SurfaceBorder border(*Connectivity::FromTriangles(12, triangles), shape);
+  EXPECT_NEAR(border.longest, 8, 1e-12);
+  EXPECT_EQ(border.vertices, (std::vector<int>{0, 1, 2, 3, 4, 5, 6, 7}));
+}
+
+// What is cut off is a part; what has a hole of the same animal is complete, and so is what is as
+// open as the template.
+TEST(Part, HasALongBorderThatTheTemplateHasNot) {
+  const CutAnimal animal;
+  EXPECT_TRUE(animal.Match().TargetIsPart());
+  const Shape rest = animal.rest;
+  const auto with_hole = [&](double radius) {
+    Eigen::Index at;
+    (rest.colwise() - Eigen::Vector3d(0, 2, 0)).colwise().squaredNorm().minCoeff(&at);
+    return PartOf(animal.body, rest,
+                  [&, centre = Eigen::Vector3d(rest.col(at))](const Eigen::Vector3d& p) {
+                    return (p - centre).norm() > radius;
+                  });
+  };
+  const double unit = std::sqrt(Area(*animal.body.connectivity, rest));
+  for (const double radius : {0.04, 0.12}) {
+    const Part part = with_hole(radius * unit);
+    const SurfaceMatcher matcher(*animal.body.connectivity, rest, *part.connectivity, part.shape);
+    EXPECT_EQ(matcher.TargetIsPart(), radius > 0.1) << radius;
+  }
+  const Part& part = animal.part;
+  EXPECT_FALSE(SurfaceMatcher(*part.connectivity, part.shape, *part.connectivity, part.shape)
+                   .TargetIsPart());
+}
+
+TEST(Part, ExtremitiesOnItsBorderAreNone) {
+  const CutAnimal animal;
+  const MatchingBody body("target", *animal.part.connectivity, animal.part.shape, nullptr);
+  ASSERT_GE(body.inner_extremities.size(), 3u);
+  EXPECT_NE(body.extremities, body.inner_extremities);
+  for (const int v : body.inner_extremities) {
+    EXPECT_GT(animal.places(2, body.surface.vertices[v]), CutAnimal::kCut + 0.1);
+  }
+  // Near the border neither curvature nor heat is that of the body.
+  for (const int v : body.border.vertices) EXPECT_FALSE(body.IsInner(v));
+  const MatchingBody whole("template", *animal.body.connectivity, animal.rest, nullptr);
+  EXPECT_EQ(whole.extremities, whole.inner_extremities);
+  EXPECT_TRUE(whole.IsInner(0));
+}
+
+TEST(Part, ItsScaleIsTheRootOfItsShare) {
+  const CutAnimal animal("stand", 0);
+  const MatchingBody whole("template", *animal.body.connectivity, animal.rest, nullptr),
+      part("target", *animal.part.connectivity, animal.part.shape, nullptr);
+  VertexPairs right;
+  for (const int v : part.spread) {
+    Eigen::Index at;
+    (animal.rest.colwise() - animal.places.col(part.surface.vertices[v]))
+        .colwise()
+        .squaredNorm()
+        .minCoeff(&at);
+    right.emplace_back(static_cast<int>(at), v);
+  }
+  const double share = Area(*animal.part.connectivity, animal.part.shape) /
+                       Area(*animal.body.connectivity, animal.rest);
+  EXPECT_NEAR(RelativeScale(whole, part, right), std::sqrt(share), 0.03);
+}
+
+// One of the candidates is right, under any motion and size of the target.
+TEST(Part, IsFoundOnTheWholeBody) {
+  CutAnimal animal;
+  const Eigen::Matrix3d turn(Eigen::AngleAxisd(2, Eigen::Vector3d(1, 2, 3).normalized()));
+  const Shape still = animal.part.shape;
+  for (const bool moved : {false, true}) {
+    if (moved) animal.part.shape = 30 * turn * still;
+    const SurfaceMatcher matcher = animal.Match();
+    const Matching matching = matcher.FindCandidates();
+    ASSERT_FALSE(matching.candidates.empty()) << matching.problem;
+    double least = 1;
+    for (const MapCandidate& candidate : matching.candidates) {
+      ASSERT_GT(candidate.markers.size(), 10u);
+      double sum = 0;
+      for (const auto& [from, to] : candidate.markers) {
+        sum += (animal.rest.col(from) - animal.places.col(to)).norm();
+      }
+      least = std::min(least, sum / static_cast<double>(candidate.markers.size()));
+    }
+    EXPECT_LT(least, 0.06 * std::sqrt(Area(*animal.body.connectivity, animal.rest))) << moved;
+  }
+}
+
+TEST(Part, IsFoundInTheSameWayOnAnyThreads) {
+  const CutAnimal animal;
+  const auto results = testing::OnThreads([&] {
+    std::vector<std::pair<int, int>> all;
+    for (const MapCandidate& candidate : animal.Match().FindCandidates().candidates) {
+      all.insert(all.end(), candidate.markers.begin(), candidate.markers.end());
+    }
+    return all;
+  });
+  ASSERT_FALSE(results[0].empty());
+  for (const auto& result : results) EXPECT_EQ(result, results[0]);
+}
+
+TEST(Part, AgreesWithAGivenPair) {
+  const CutAnimal animal;
+  // A fore foot, and the same of the template.
+  Eigen::Index to, from;
+  (animal.places.row(0) - animal.places.row(1) * 5).maxCoeff(&to);
+  (animal.rest.colwise() - animal.places.col(to)).colwise().squaredNorm().minCoeff(&from);
+  const std::pair<int, int> pair(static_cast<int>(from), static_cast<int>(to));
+  const Matching matching = animal.Match().FindCandidates({pair});
+  ASSERT_FALSE(matching.candidates.empty()) << matching.problem;
+  for (const MapCandidate& candidate : matching.candidates) {
+    EXPECT_EQ(candidate.markers.front(), pair);
+  }
+}
+
+// The template is fitted to the part, and what that lacks follows.
+TEST(Correspond, FindsWhereAPartBelongs) {
+  for (const char* pose : {"stride", "stretch"}) {
+    const CutAnimal animal(pose);
+    const CorrespondenceResult result = Correspond(animal.body.connectivity, animal.rest,
+                                                   animal.part.connectivity, animal.part.shape, {});
+    const Shape found =
+        PullBack(result.map.to_template, animal.body.connectivity->Triangles(), animal.rest);
+    EXPECT_LT(animal.Error(found), 0.03) << pose << result.summary.FullReport();
+    EXPECT_NEAR(result.summary.scale, 1, 0.08) << pose;
+    EXPECT_LT(result.summary.uncovered, 0.02) << pose;
+    EXPECT_NEAR(Area(*animal.body.connectivity, result.fitted) /
+                    Area(*animal.body.connectivity, animal.rest),
+                1, 0.1)
+        << pose;
+    const auto& candidates = result.summary.candidates;
+    EXPECT_TRUE(std::any_of(candidates.begin(), candidates.end(),
+                            [](const auto& candidate) { return candidate.chosen; }));
+    EXPECT_EQ(result.in_doubt.size(), static_cast<size_t>(animal.rest.cols()));
+  }
+}
+
+}  // namespace
+}  // namespace shapespace::internal
