@@ -166,6 +166,11 @@ class Finder {
                  100 * part.share, part.vertex + 1, part.target_vertex + 1, part.other_vertex + 1,
                  part.cost));
     }
+    if (matcher_.TargetIsPart()) {
+      summary.warnings.emplace_back(
+          "the target lacks a part of the body: one in five such maps is wrong, and some of those "
+          "look sure; check the picture, and give a marker or two if it shows a wrong one");
+    }
     if (fits_[0].deformation > kUnlike) {
       summary.warnings.push_back("the bodies differ much in their proportions (deformation " +
                                  Format("%.2f", fits_[0].deformation) +
