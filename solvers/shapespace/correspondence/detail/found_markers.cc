@@ -168,7 +168,7 @@ class Finder {
     }
     if (matcher_.TargetIsPart()) {
       summary.warnings.emplace_back(
-          "the target lacks a part of the body: one in five such maps is wrong, and some of those "
+          "the target lacks a part of the body: one in four such maps is wrong, and some of those "
           "look sure; check the picture, and give a marker or two if it shows a wrong one");
     }
     if (fits_[0].deformation > kUnlike) {
