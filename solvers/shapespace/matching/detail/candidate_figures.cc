@@ -164,7 +164,7 @@ double CandidateFigures::Curvature(const SpectralMap& map) const {
 }
 
 std::vector<double> CandidateFigures::Isometry(const std::vector<SpectralMap>& maps) const {
-  const std::vector<double> back =
+  std::vector<double> back =
       Changes(target_.between, template_.body, maps, &SpectralMap::to_template);
   if (directions_ == Directions::kToTemplate) return back;
   std::vector<double> mean =
