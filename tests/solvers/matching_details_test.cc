@@ -171,8 +171,8 @@ TEST(Assignments, FindAHiddenPermutationAmongMore) {
   }
   for (const bool swapped : {false, true}) {
     const Assignments found =
-        swapped ? AssignExtremities({large, small, Eigen::MatrixXd::Zero(8, 6)}, 5)
-                : AssignExtremities({small, large, Eigen::MatrixXd::Zero(6, 8)}, 5);
+        swapped ? AssignExtremities({large, small, Eigen::MatrixXd::Zero(8, 6)}, 5, 3)
+                : AssignExtremities({small, large, Eigen::MatrixXd::Zero(6, 8)}, 5, 3);
     ASSERT_EQ(found.best.size(), 5);
     EXPECT_NEAR(found.best[0].cost, 0, 1e-12);
     for (int i = 1; i < 5; ++i) EXPECT_GE(found.best[i].cost, found.best[i - 1].cost);
@@ -187,8 +187,8 @@ TEST(Assignments, TheBoundLosesNoneOfTheBest) {
   const Eigen::MatrixXd a = RandomDistances(5, &random), b = RandomDistances(5, &random);
   const Eigen::MatrixXd difference = Eigen::MatrixXd::Random(5, 5).cwiseAbs();
   // With room for all there is nothing to leave out.
-  const Assignments all = AssignExtremities({a, b, difference}, 100000);
-  const Assignments few = AssignExtremities({a, b, difference}, 10);
+  const Assignments all = AssignExtremities({a, b, difference}, 100000, 3);
+  const Assignments few = AssignExtremities({a, b, difference}, 10, 3);
   EXPECT_LT(few.tried, all.tried);
   ASSERT_EQ(few.best.size(), 10);
   for (int i = 0; i < 10; ++i) EXPECT_NEAR(few.best[i].cost, all.best[i].cost, 1e-12);
@@ -201,7 +201,7 @@ TEST(Assignments, KnownPointsTellEqualExtremitiesApart) {
                               Eigen::MatrixXd::Zero(4, 4)};
   distances.on_template.leftCols(4) = distances.on_target.leftCols(4) = between;
   distances.on_template(2, 4) = distances.on_target(1, 4) = 0.1;
-  const Assignments found = AssignExtremities(distances, 6);
+  const Assignments found = AssignExtremities(distances, 6, 3);
   ASSERT_EQ(found.best.size(), 6);
   for (const Assignment& assignment : found.best) {
     ASSERT_EQ(assignment.pairs.size(), 4);
@@ -211,7 +211,8 @@ TEST(Assignments, KnownPointsTellEqualExtremitiesApart) {
 
 TEST(Assignments, EndForManyEqualExtremities) {
   const Eigen::MatrixXd between = Eigen::MatrixXd::Ones(9, 9) - Eigen::MatrixXd::Identity(9, 9);
-  const Assignments found = AssignExtremities({between, between, Eigen::MatrixXd::Zero(9, 9)}, 24);
+  const Assignments found =
+      AssignExtremities({between, between, Eigen::MatrixXd::Zero(9, 9)}, 24, 3);
   EXPECT_EQ(found.best.size(), 24);
   EXPECT_LE(found.tried, 1000000);
 }

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,6 +15,8 @@
 #include <shapespace/matching/detail/part_maps.h>
 #include <shapespace/matching/internal/matching.h>
 
+#include "bodies/measure.h"
+#include "support/paths.h"
 #include "support/threads.h"
 
 // Targets that are a part of what the template is.
@@ -54,22 +55,6 @@ Part PartOf(const SkinnedBody& body, const Shape& shape, const Keep& keep) {
   return part;
 }
 
-double Area(const Connectivity& connectivity, const Shape& shape) {
-  double area = 0;
-  for (const auto& t : connectivity.Triangles().colwise()) {
-    const Eigen::Vector3d a = shape.col(t(0));
-    area += 0.5 * (shape.col(t(1)) - a).cross(shape.col(t(2)) - a).norm();
-  }
-  return area;
-}
-
-Shape WithNoise(Shape shape, double deviation) {
-  std::mt19937 random(5);
-  std::normal_distribution<double> normal(0, deviation);
-  for (double& coordinate : shape.reshaped()) coordinate += normal(random);
-  return shape;
-}
-
 // An animal that stands, and another mesh of it in a pose, without the hind legs, the tail, and
 // what is between them: 30 % of the area.
 struct CutAnimal {
@@ -81,7 +66,8 @@ struct CutAnimal {
   explicit CutAnimal(const std::string& pose = "stride", double noise = 0.002)
       : body(MakeQuadruped(3000)), rest(body.pose("stand")) {
     const SkinnedBody other = MakeQuadruped(4000);
-    part = PartOf(other, WithNoise(other.pose(pose), noise),
+    const Shape shape = other.pose(pose);
+    part = PartOf(other, shape + testing::Noise(static_cast<int>(shape.cols()), noise, 5),
                   [](const Eigen::Vector3d& p) { return p.z() > kCut; });
     places = other.pose("stand")(Eigen::all, part.vertices);
   }

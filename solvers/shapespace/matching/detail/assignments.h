@@ -37,7 +37,7 @@ struct Assignments {
 /// extremities of the body that has fewer. Found depth first, leaving out what cannot be
 /// among the best. The search ends when a million partial assignments have been looked at, which
 /// is more than there are of nine extremities on each body.
-Assignments AssignExtremities(const LandmarkDistances& distances, int count, int fewest = 3);
+Assignments AssignExtremities(const LandmarkDistances& distances, int count, int fewest);
 
 }  // namespace shapespace::internal
 

@@ -42,9 +42,12 @@ int TargetCount(const MatchingBody& on_template, int count, const MatchingBody& 
   return std::min(most, std::max(kFewestFunctions, below));
 }
 
-std::vector<int> CountsUpToAll(const MatchingBody& body) {
-  std::vector<int> counts(body.spectrum.Count());
-  std::iota(counts.begin(), counts.end(), 1);
+// All that TargetCount can be for up to `count` functions of the template.
+std::vector<int> TargetCounts(const MatchingBody& on_template, int count,
+                              const MatchingBody& on_target) {
+  const int fewest = std::min(kFewestFunctions, on_target.spectrum.Count());
+  std::vector<int> counts(TargetCount(on_template, count, on_target, kGreatestScale) - fewest + 1);
+  std::iota(counts.begin(), counts.end(), fewest);
   return counts;
 }
 
@@ -107,7 +110,7 @@ std::vector<CandidateMap> MakePartMaps(const MatchingBody& on_template,
   const SpectralPoints first(on_template.spectrum, on_template.spread, kPartSamples,
                              {std::min(kPartFine.back(), on_template.spectrum.Count())});
   const SpectralPoints second(on_target.spectrum, on_target.spread, kPartSamples,
-                              CountsUpToAll(on_target));
+                              TargetCounts(on_template, kPartFine.back(), on_target));
   std::vector<CandidateMap> maps(assignments.size());
   ReportProgress(progress, "maps", 0, static_cast<int>(maps.size()));
   ParallelFor(static_cast<int>(maps.size()), [&](int i) {

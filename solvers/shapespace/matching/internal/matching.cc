@@ -187,7 +187,6 @@ std::vector<CandidateMap> FindMaps(const MatchingBody& first, const MatchingBody
                          HeatDifference(first.spectrum, first.extremities, second.spectrum,
                                         second.extremities, kLimbTime, 1)},
                         count, kFewestLandmarks);
-  matching->assignments_tried = assignments.tried;
   matching->assignment_seconds = stopwatch.Seconds();
   stopwatch = Stopwatch();
   std::vector<CandidateMap> maps =
@@ -208,7 +207,6 @@ std::vector<CandidateMap> FindPartMaps(const MatchingBody& first, const Matching
       second, LandmarkVertices(second.inner_extremities, known, &std::pair<int, int>::second));
   const std::vector<ScaledAssignment> assignments =
       AssignAtScales(first, on_template, second, on_target, count);
-  matching->assignments_tried = static_cast<int>(assignments.size());
   matching->assignment_seconds = stopwatch.Seconds();
   stopwatch = Stopwatch();
   std::vector<CandidateMap> maps =

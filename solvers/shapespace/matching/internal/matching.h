@@ -73,9 +73,8 @@ struct Matching {
   /// there are some.
   std::string problem;
   int template_extremities = 0, target_extremities = 0;
-  int assignments_tried = 0;  ///< partial ones too
-  int maps = 0;               ///< different ones that were made of assignments
-  int maps_refused = 0;       ///< of these, because they reverse orientation or contradict pairs
+  int maps = 0;          ///< different ones that were made of assignments
+  int maps_refused = 0;  ///< of these, because they reverse orientation or contradict pairs
   double assignment_seconds = 0, map_seconds = 0, figure_seconds = 0, marker_seconds = 0;
 };
 
