@@ -9,13 +9,14 @@
 namespace shapespace::internal {
 namespace {
 
-// Points and queries that are compared together: their products fill the registers.
-constexpr int kPoints = 16, kQueries = 6;
-using FloatVector = float __attribute__((vector_size(kPoints * sizeof(float))));
+// Points and queries that are compared together: their products fill the registers. Vectors are as
+// long as those of AVX2; g++ keeps longer ones, without AVX-512, in memory.
+constexpr int kLanes = 8, kVectors = 2, kPoints = kLanes * kVectors, kQueries = 6;
+using FloatVector = float __attribute__((vector_size(kLanes * sizeof(float))));
 // The same in memory, without alignment beyond that of a number.
 using StoredVector =
-    float __attribute__((vector_size(kPoints * sizeof(float)), aligned(4), may_alias));
-using IntVector = int __attribute__((vector_size(kPoints * sizeof(int))));
+    float __attribute__((vector_size(kLanes * sizeof(float)), aligned(4), may_alias));
+using IntVector = int __attribute__((vector_size(kLanes * sizeof(int))));
 
 // For kQueries queries, the point with the greatest product with it less half of its own square.
 // `blocks` has for each kPoints points these halves, and then kPoints numbers per dimension;
@@ -29,27 +30,32 @@ void NearestOfBlocks(const float* blocks, int num_blocks, int dimensions, const 
     best[q] = FloatVector{} - std::numeric_limits<float>::max();
     at[q] = IntVector{};
   }
-  for (int i = 0; i < kPoints; ++i) here[i] = i;
+  for (int i = 0; i < kLanes; ++i) here[i] = i;
+  const auto* numbers = reinterpret_cast<const StoredVector*>(blocks);
   for (int block = 0; block < num_blocks; ++block) {
-    const StoredVector* numbers = reinterpret_cast<const StoredVector*>(blocks) +
-                                  static_cast<size_t>(block) * (dimensions + 1);
-    FloatVector products[kQueries];
-    for (int q = 0; q < kQueries; ++q) products[q] = -numbers[0];
+    FloatVector products[kVectors][kQueries];
+    for (int k = 0; k < kVectors; ++k, ++numbers) {
+      for (int q = 0; q < kQueries; ++q) products[k][q] = -numbers[0];
+    }
     const float* query = queries;
-    for (int d = 0; d < dimensions; ++d, query += kQueries) {
-      const FloatVector coordinate = *++numbers;
-      for (int q = 0; q < kQueries; ++q) products[q] += query[q] * coordinate;
+    for (int d = 0; d < dimensions; ++d, query += kQueries, numbers += kVectors) {
+      const FloatVector first = numbers[0], second = numbers[1];
+      for (int q = 0; q < kQueries; ++q) {
+        products[0][q] += query[q] * first;
+        products[1][q] += query[q] * second;
+      }
     }
-    for (int q = 0; q < kQueries; ++q) {
-      const auto better = products[q] > best[q];
-      best[q] = better ? products[q] : best[q];
-      at[q] = better ? here : at[q];
+    for (int k = 0; k < kVectors; ++k, here += kLanes) {
+      for (int q = 0; q < kQueries; ++q) {
+        const auto better = products[k][q] > best[q];
+        best[q] = better ? products[k][q] : best[q];
+        at[q] = better ? here : at[q];
+      }
     }
-    here += kPoints;
   }
   for (int q = 0; q < kQueries; ++q) {
     int lane = 0;
-    for (int i = 1; i < kPoints; ++i) {
+    for (int i = 1; i < kLanes; ++i) {
       const bool tie = best[q][i] == best[q][lane] && at[q][i] < at[q][lane];
       if (best[q][i] > best[q][lane] || tie) lane = i;
     }
