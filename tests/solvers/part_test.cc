@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -204,6 +205,37 @@ TEST(Part, AgreesWithAGivenPair) {
   for (const MapCandidate& candidate : matching.candidates) {
     EXPECT_EQ(candidate.markers.front(), pair);
   }
+}
+
+// The markers with which the template is fitted to a part are all over the part, those that were
+// given first, and no vertex is in two of them.
+TEST(Part, MarkersAreSpreadOverIt) {
+  const CutAnimal animal;
+  const Part& part = animal.part;
+  std::vector<int> images;
+  for (const auto& place : animal.places.colwise()) {
+    Eigen::Index at;
+    (animal.rest.colwise() - place).colwise().squaredNorm().minCoeff(&at);
+    images.push_back(static_cast<int>(at));
+  }
+  const std::pair<int, int> given(images[7], 7);
+  const auto pairs = animal.Match().SpreadPairs(images, 60, {given});
+  ASSERT_EQ(pairs.size(), 60u);
+  EXPECT_EQ(pairs.front(), given);
+  std::set<int> from, to;
+  for (const auto& [v, y] : pairs) {
+    EXPECT_EQ(v, images[y]);
+    from.insert(v);
+    to.insert(y);
+  }
+  EXPECT_EQ(from.size(), pairs.size());
+  EXPECT_EQ(to.size(), pairs.size());
+  const Shape markers = part.shape(Eigen::all, std::vector<int>(to.begin(), to.end()));
+  double farthest = 0;
+  for (const auto& place : part.shape.colwise()) {
+    farthest = std::max(farthest, (markers.colwise() - place).colwise().norm().minCoeff());
+  }
+  EXPECT_LT(farthest, 0.15 * std::sqrt(Area(*part.connectivity, part.shape)));
 }
 
 // The template is fitted to the part, and what that lacks follows.

@@ -44,11 +44,16 @@ constexpr int kSearchedOn = 10000;
 // better.
 constexpr int kRefinedOn = 4000;
 
+// Candidates of a part are judged by fits of it with so many triangles, which find the same maps as
+// those with twice as many.
+constexpr int kPartFittedOn = 1000;
 // Fits of a part that cost less than this many times as much as the cheapest are repeated so many
 // times, each with markers of the map that the one before it makes. Of ten cut bodies the right map
 // began with up to 1.7 times the cost of the wrong one that was the cheapest, and ended below it.
 constexpr double kRepeatedBelow = 2;
 constexpr int kRepeats = 2;
+// Markers with which the template is fitted to a part.
+constexpr size_t kMarkersOfPart = 60;
 // A vertex of the template is where a part is if the image of a vertex of the part is so near.
 constexpr double kCoveredBy = 0.05;
 
@@ -65,8 +70,9 @@ Markers On(const CoarseBody& from, Markers markers) {
 // A candidate's fit, and how unlike the bodies are where it joins them.
 struct CandidateFit {
   MapCandidate candidate;
-  size_t row = 0;              // of the summary's candidates
-  std::vector<int> to_target;  // of each vertex of the coarse template; -1 if a part has none
+  size_t row = 0;                // of the summary's candidates
+  std::vector<int> to_target;    // of each vertex of the coarse template; -1 if a part has none
+  std::vector<int> to_template;  // of each vertex of the target, if it is a part
   double deformation = kNotComputed;
   MapFigures figures;
   double reverse = 1;  // the deformation of the target by the reverse fit, as a share of that with
@@ -148,7 +154,7 @@ class Finder {
     const std::optional<size_t> other = Other();
     double certainty = kNotComputed;
     if (other) certainty = fits_[*other].Cost() / fits_[0].Cost();
-    CorrespondenceResult result = FitWhole(fits_[0].candidate);
+    CorrespondenceResult result = FitWhole(fits_[0]);
 
     CorrespondenceSummary& summary = result.summary;
     summary.candidates = rows_;
@@ -230,14 +236,11 @@ class Finder {
     return markers;
   }
 
-  // A fit of a target that is a part, all of which has a place on the template. `images` become
-  // the vertices of the template where those of the target are.
-  CandidateFit FitPart(const MapCandidate& candidate, Progress* progress,
-                       std::vector<int>* images) const {
+  // A fit of a target that is a part, all of which has a place on the template.
+  CandidateFit FitPart(const MapCandidate& candidate, Progress* progress) const {
     const Markers markers = Reversed(All(candidate.markers));
-    const CoarseBody coarse =
-        Coarsen(target_, options_.coarsest,
-                MarkerVertices(markers, &CorrespondenceMarker::template_vertex));
+    const CoarseBody coarse = Coarsen(
+        target_, kPartFittedOn, MarkerVertices(markers, &CorrespondenceMarker::template_vertex));
     const SmoothStretch stretch(coarse.body.connectivity, coarse.body.own, options_.proportions);
     const CorrespondenceResult result = Fit(coarse, from_, markers, progress);
     const std::vector<int> of_coarse = NearestCorners(result.map.to_target, *from_.connectivity);
@@ -245,42 +248,37 @@ class Finder {
     fit.candidate = candidate;
     fit.deformation = PartDeformation(stretch, coarse.body, from_.frame, result);
     fit.figures = matcher_.Compare(of_coarse, coarse.vertices);
-    images->clear();
     for (const int y : NearestOf(*target_.connectivity, target_.own, coarse.vertices)) {
-      images->push_back(y < 0 ? 0 : of_coarse[coarse.IndexOf(y)]);
+      fit.to_template.push_back(y < 0 ? 0 : of_coarse[coarse.IndexOf(y)]);
     }
     return fit;
   }
 
   // Fits the part onto the template with each candidate's markers; cheapest first.
   void FitPartCandidates() {
-    const CoarseBody coarse = Coarsen(from_, options_.coarsest, {});
-    std::vector<std::vector<int>> images(matching_.candidates.size());
-    FitAll([&](int i, Progress* own) {
-      CandidateFit fit = FitPart(matching_.candidates[i], own, &images[i]);
-      fit.to_target = InverseOf(from_.own, coarse.vertices, images[i]);
-      return fit;
-    });
+    FitAll([&](int i, Progress* own) { return FitPart(matching_.candidates[i], own); });
     const double most = kRepeatedBelow * fits_[0].Cost();
     const auto count = static_cast<int>(std::count_if(
         fits_.begin(), fits_.end(), [&](const auto& fit) { return fit.Cost() < most; }));
     TaskGroup(progress_, "better markers", count).RunAll(count, [&](int i, Progress* own) {
       CandidateFit& best = fits_[i];
-      MapCandidate candidate = best.candidate;
-      std::vector<int>& last = images[best.row];
+      CandidateFit last = best;
       try {
         for (int repeat = 0; repeat < kRepeats; ++repeat) {
-          candidate.markers = matcher_.RefineMarkers(candidate, {}, last, given_pairs_, own);
-          CandidateFit fit = FitPart(candidate, own, &last);
-          if (fit.Cost() >= best.Cost()) continue;
-          fit.row = best.row;
-          fit.to_target = InverseOf(from_.own, coarse.vertices, last);
-          best = std::move(fit);
+          last.candidate.markers =
+              matcher_.RefineMarkers(last.candidate, {}, last.to_template, given_pairs_, own);
+          last = FitPart(last.candidate, own);
+          last.row = best.row;
+          if (last.Cost() < best.Cost()) best = last;
         }
       } catch (const MeshError&) {
         // The fit's own map is no better: its markers contradict each other. The best remains.
       }
     });
+    const CoarseBody coarse = Coarsen(from_, options_.coarsest, {});
+    for (CandidateFit& fit : fits_) {
+      fit.to_target = InverseOf(from_.own, coarse.vertices, fit.to_template);
+    }
     for (const CandidateFit& fit : fits_) Tell(fit);
     CheapestFirst();
     FindParts(coarse);
@@ -441,14 +439,21 @@ class Finder {
     return matcher_.RefineMarkers(candidate, to_target, to_template, given_pairs_, progress_);
   }
 
-  // The whole template with the markers of a map of functions that a fit of the coarser one with
-  // the candidate's makes.
-  CorrespondenceResult FitWhole(const MapCandidate& candidate) const {
-    const Markers coarse_markers = All(candidate.markers);
-    const CoarseBody coarse = Coarsen(
-        from_, kRefinedOn, MarkerVertices(coarse_markers, &CorrespondenceMarker::template_vertex));
-    const CorrespondenceResult first = Fit(coarse, target_, coarse_markers, progress_);
-    Markers markers = All(Refine(candidate, coarse, first));
+  // Markers for the whole template: those of a map of functions that a fit of the coarser one with
+  // the candidate's makes, or, of a part, all over it, at the places that its own fit has found.
+  Markers FinalMarkers(const CandidateFit& chosen) const {
+    if (matcher_.TargetIsPart()) {
+      return All(matcher_.SpreadPairs(chosen.to_template, kMarkersOfPart, given_pairs_));
+    }
+    const Markers markers = All(chosen.candidate.markers);
+    const CoarseBody coarse =
+        Coarsen(from_, kRefinedOn, MarkerVertices(markers, &CorrespondenceMarker::template_vertex));
+    const CorrespondenceResult fit = Fit(coarse, target_, markers, progress_);
+    return All(Refine(chosen.candidate, coarse, fit));
+  }
+
+  CorrespondenceResult FitWhole(const CandidateFit& chosen) const {
+    Markers markers = FinalMarkers(chosen);
     for (CorrespondenceMarker& marker : markers) {
       marker.template_vertex = searched_from_.vertices[marker.template_vertex];
       marker.target_vertex = searched_target_.vertices[marker.target_vertex];

@@ -9,15 +9,16 @@
 namespace shapespace::internal {
 namespace {
 
-// Pairs from which distances are compared, to all others.
-constexpr size_t kDistancesFrom = 80;
+// Pairs from which distances are compared, to all others; of parts, which are fitted several times
+// as often, fewer.
+constexpr size_t kDistancesFrom = 80, kDistancesFromPart = 40;
 // In units of the area: heat has spread over a tenth of its root.
 constexpr double kHeatTime = 0.003;
 
 // Distances on the target are multiplied by `scale`.
 double Isometry(const MatchingBody& on_template, const MatchingBody& on_target,
-                const VertexPairs& pairs, double scale) {
-  const size_t stride = std::max<size_t>(1, pairs.size() / kDistancesFrom);
+                const VertexPairs& pairs, double scale, size_t num_from) {
+  const size_t stride = std::max<size_t>(1, pairs.size() / num_from);
   std::vector<int> first, second;
   for (size_t i = 0; i < pairs.size(); i += stride) {
     first.push_back(pairs[i].first);
@@ -80,7 +81,7 @@ MapFigures CompareBodies(const MatchingBody& on_template, const MatchingBody& on
                          const VertexPairs& pairs) {
   MapFigures figures;
   if (pairs.empty()) return figures;
-  figures.isometry = Isometry(on_template, on_target, pairs, 1);
+  figures.isometry = Isometry(on_template, on_target, pairs, 1, kDistancesFrom);
   figures.curvature =
       MeanDifference(SaturatedCurvature(on_template, on_template.laplacian.areas),
                      SaturatedCurvature(on_target, on_target.laplacian.areas), pairs);
@@ -103,7 +104,7 @@ MapFigures ComparePart(const MatchingBody& on_template, const MatchingBody& on_t
   }
   if (inner.empty()) return figures;
   const double scale = RelativeScale(on_template, on_target, Spread(pairs));
-  figures.isometry = Isometry(on_template, on_target, pairs, scale);
+  figures.isometry = Isometry(on_template, on_target, pairs, scale, kDistancesFromPart);
   figures.curvature = MeanDifference(SaturatedCurvature(on_template, on_both),
                                      SaturatedCurvature(on_target, of_both), inner);
   figures.heat = MeanDifference(HeatSignature(on_template.spectrum, 1),

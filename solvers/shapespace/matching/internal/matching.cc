@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <set>
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/check_range.h>
@@ -360,6 +361,26 @@ MapFigures SurfaceMatcher::Compare(const std::vector<int>& vertices,
   for (size_t i = 0; i < vertices.size(); ++i) pairs.emplace_back(vertices[i], images[i]);
   return (TargetIsPart() ? ComparePart : CompareBodies)(
       *template_, *target_, OnWorkingSurfaces(pairs, template_->surface, target_->surface));
+}
+
+std::vector<std::pair<int, int>> SurfaceMatcher::SpreadPairs(
+    const std::vector<int>& to_template, size_t count,
+    const std::vector<std::pair<int, int>>& given) const {
+  VertexPairs pairs = given;
+  std::set<int> from_taken, to_taken;
+  for (const auto& [from, to] : given) {
+    from_taken.insert(from);
+    to_taken.insert(to);
+  }
+  for (const int v : target_->even.vertices) {
+    const int to = target_->surface.vertices[v], from = to_template[to];
+    if (pairs.size() >= count) break;
+    if (from_taken.count(from) + to_taken.count(to) > 0) continue;
+    from_taken.insert(from);
+    to_taken.insert(to);
+    pairs.emplace_back(from, to);
+  }
+  return pairs;
 }
 
 std::vector<int> SurfaceMatcher::NearestOf(const std::vector<int>& vertices) const {

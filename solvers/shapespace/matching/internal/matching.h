@@ -122,6 +122,12 @@ class SurfaceMatcher {
                                                  const std::vector<std::pair<int, int>>& given = {},
                                                  Progress* progress = nullptr) const;
 
+  /// The given pairs, and pairs of a map of the target to the template (`to_template`: a vertex of
+  /// it for each of the target) up to `count` in all: vertices that are spread evenly over the
+  /// target, and their images. No vertex is in two pairs that are not given.
+  std::vector<std::pair<int, int>> SpreadPairs(const std::vector<int>& to_template, size_t count,
+                                               const std::vector<std::pair<int, int>>& given) const;
+
   /// Judges a map that sends vertices of the template to such `images`, a vertex of the target for
   /// each, where both are on the largest components.
   MapFigures Compare(const std::vector<int>& vertices, const std::vector<int>& images) const;
