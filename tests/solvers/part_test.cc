@@ -257,6 +257,13 @@ TEST(Correspond, FindsWhereAPartBelongs) {
     EXPECT_TRUE(std::any_of(candidates.begin(), candidates.end(),
                             [](const auto& candidate) { return candidate.chosen; }));
     EXPECT_EQ(result.in_doubt.size(), static_cast<size_t>(animal.rest.cols()));
+    const auto says = [&](const std::string& text) {
+      const auto& warnings = result.summary.warnings;
+      return std::any_of(warnings.begin(), warnings.end(), [&](const std::string& warning) {
+        return warning.find(text) != std::string::npos;
+      });
+    };
+    EXPECT_TRUE(says("lacks a part") && !says("much deformed")) << result.summary.FullReport();
   }
 }
 
