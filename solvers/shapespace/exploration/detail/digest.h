@@ -6,6 +6,9 @@
 #include <string>
 
 #define XXH_INLINE_ALL
+// In browsers xxHash 0.8.3 would take instructions from arm_neon.h, which in Debian 13's emscripten
+// includes headers that are not there.
+#define XXH_HAS_INCLUDE(header) 0
 #include <xxhash.h>
 
 #include <shapespace/geodesic/geodesic.h>
