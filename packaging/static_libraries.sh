@@ -24,9 +24,9 @@ cp /usr/share/doc/libgif-dev/copyright "$prefix/licenses/giflib"
 # headers are copied.
 if [[ ${CMAKE_TOOLCHAIN_FILE-} ]]; then
   mkdir -p "$prefix"/{include,share/cmake}
-  cp -r /usr/include/{eigen3,fast_float,nlohmann,stb,tiny_gltf.h,xxhash.h} "$prefix/include/"
-  cp -r /usr/share/eigen3 "$prefix/share/"
-  cp -r /usr/share/cmake/nlohmann_json "$prefix/share/cmake/"
+  cp -rp /usr/include/{eigen3,fast_float,nlohmann,stb,tiny_gltf.h,xxhash.h} "$prefix/include/"
+  cp -rp /usr/share/eigen3 "$prefix/share/"
+  cp -rp /usr/share/cmake/nlohmann_json "$prefix/share/cmake/"
 fi
 cd "$work"
 
@@ -57,12 +57,17 @@ with_cmake() {
   cmake -S "$folder" -B "$source/build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
     -DCMAKE_INSTALL_PREFIX="$prefix" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_INSTALL_LIBDIR=lib \
     -DBUILD_SHARED_LIBS=OFF -DCMAKE_POSITION_INDEPENDENT_CODE=ON -DBUILD_TESTING=OFF \
+    -DCMAKE_C_FLAGS_RELEASE="$optimized" -DCMAKE_CXX_FLAGS_RELEASE="$optimized" \
     -DCMAKE_C_FLAGS="$flags" -DCMAKE_CXX_FLAGS="$flags" -DCMAKE_EXPORT_NO_PACKAGE_REGISTRY=ON \
     "$@" &&
     cmake --build "$source/build" && cmake --install "$source/build"
 }
 
 for_windows() { [[ ${CMAKE_TOOLCHAIN_FILE-} == */windows.cmake ]]; }
+
+# There each of the tools contains all that it needs, and small code counts for more.
+optimized="-O3 -DNDEBUG"
+! for_windows || optimized="-Os -DNDEBUG"
 
 # Of each library, programs take the functions that they call, and no more (--gc-sections).
 flags="-ffunction-sections -fdata-sections -ffile-prefix-map=$work="
@@ -115,14 +120,19 @@ build_onetbb() {
 # It expects Microsoft's compiler on Windows, and elsewhere a linker and C library that know ELF.
 embree_for_mingw() {
   sed -i 's/INCLUDE (msvc)/INCLUDE (gnu)/' embree/CMakeLists.txt &&
-    sed -i 's/ -z [a-z ]*//g; s/ -pie//; s/ -D_FORTIFY_SOURCE=2//' embree/common/cmake/gnu.cmake &&
+    sed -i 's/ -z [a-z ]*//g; s/ -pie//; s/ -D_FORTIFY_SOURCE=2//; s/ -O3/ -Os/' \
+      embree/common/cmake/gnu.cmake &&
     sed -i '/embree\.rc/d' embree/kernels/CMakeLists.txt
 }
 build_embree() {
   # A static Embree would install a target of an older TBB, and a manual that Debian's archive lacks. Of
-  # the geometries it has those that shapespace draws and searches; with instructions of any processor.
+  # the geometries it has those that shapespace draws and searches, of curves straight tubes alone; with
+  # instructions of any processor.
   sed -i '/^IF (EMBREE_STATIC_LIB)/,/^ENDIF()/d' embree/common/cmake/installTBB.cmake &&
     sed -i '/readme\.pdf/d' embree/common/cmake/package.cmake &&
+    sed -i '/vtbl\[/{/GTY_SPHERE_POINT\|GTY_ROUND_LINEAR_CURVE/!d}' \
+      embree/kernels/geometry/curve_intersector_virtual_*.cpp &&
+    sed -i '/case .* new CurveGeometryISA/d' embree/kernels/common/scene_curves.cpp &&
     { ! for_windows || embree_for_mingw; } &&
     with_cmake embree . -DEMBREE_STATIC_LIB=ON -DEMBREE_TUTORIALS=OFF -DEMBREE_ISPC_SUPPORT=OFF \
       -DEMBREE_RAY_PACKETS=OFF -DEMBREE_GEOMETRY_QUAD=OFF -DEMBREE_GEOMETRY_SUBDIVISION=OFF \
