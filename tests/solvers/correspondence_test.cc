@@ -84,6 +84,27 @@ TEST(Correspond, FindsTheMapWithoutMarkers) {
                           [](const auto& candidate) { return candidate.chosen; }));
 }
 
+// A fit of this template onto a body with short legs that rears does not reach all of a leg, which
+// the fit of that body onto the template does.
+TEST(Correspond, FindsWithoutMarkersWhatOnlyTheReverseFitReaches) {
+  Remeshed bodies("rear", 2400, 3300, 0, NamedQuadrupedForm("short"));
+  const CorrespondenceResult result = bodies.Fit();
+  EXPECT_TRUE(result.summary.Converged()) << result.summary.FullReport();
+  EXPECT_LT(bodies.Errors(result.map).mean(), bodies.Edge());
+  EXPECT_LT(bodies.Errors(result.map).maxCoeff(), 8 * bodies.Edge());
+}
+
+// Each map of an animal to a bar is nonsense, which is said. Triangles collapse between the markers
+// that the fits in both directions give.
+TEST(Correspond, AnswersForBodiesThatHaveNothingInCommon) {
+  const SkinnedBody animal = MakeQuadruped(2400);
+  const ShapeFamily bar = MakeBody("bar");
+  const CorrespondenceResult result = Correspond(animal.connectivity, animal.pose("rear"),
+                                                 bar.connectivity, bar.pose(bar.begin), {});
+  EXPECT_TRUE(result.fitted.allFinite());
+  EXPECT_TRUE(Names(result.summary.warnings, "a guess")) << result.summary.FullReport();
+}
+
 // The body is its own mirror image, nearly; one marker that is on the other side turns the map
 // round.
 TEST(Correspond, OneMarkerDecidesBetweenMaps) {

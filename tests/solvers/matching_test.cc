@@ -216,38 +216,6 @@ TEST(Matching, MarkersAreSpreadOverTheBodyAndNearTheirPlaces) {
   EXPECT_TRUE(std::is_partitioned(best.markers.begin(), best.markers.end(), is_end));
 }
 
-TEST(Matching, AFitsMapIsRefined) {
-  const TwoMeshes pair("stride", 3000, 4400);
-  const SurfaceMatcher matcher = Match(pair.first, pair.second);
-  const Matching matching = matcher.FindCandidates();
-  ASSERT_FALSE(matching.candidates.empty()) << matching.problem;
-  const auto nearest = [](const Shape& places, const Eigen::Vector3d& point) {
-    Eigen::Index index;
-    (places.colwise() - point).colwise().squaredNorm().minCoeff(&index);
-    return static_cast<int>(index);
-  };
-  // The right map in both directions.
-  std::vector<int> there, back;
-  for (Eigen::Index v = 0; v < pair.right.cols(); ++v) {
-    there.push_back(nearest(pair.second.shape, pair.right.col(v)));
-  }
-  for (Eigen::Index v = 0; v < pair.second.shape.cols(); ++v) {
-    back.push_back(nearest(pair.right, pair.second.shape.col(v)));
-  }
-  const auto error = [&](const VertexPairs& markers) {
-    double sum = 0;
-    for (const auto& [a, b] : markers) {
-      sum += (pair.second.shape.col(b) - pair.right.col(a)).norm();
-    }
-    return sum / markers.size() / RootArea(pair.second);
-  };
-  const VertexPairs refined = matcher.RefineMarkers(matching.candidates[0], there, back);
-  EXPECT_GE(refined.size(), 30);
-  EXPECT_LT(error(refined), 0.75 * error(matching.candidates[0].markers));
-  const auto call = [&] { (void)matcher.RefineMarkers(matching.candidates[0], {}, back); };
-  EXPECT_NE(MessageOf<MeshError>(call).find("0 entries"), std::string::npos);
-}
-
 TEST(Matching, IsTheSameOnAnyThreads) {
   const TwoMeshes pair("rear", 2000, 2600);
   const auto results = testing::OnThreads([&] {

@@ -43,9 +43,12 @@ constexpr double kUnlikePart = 0.32;
 // than twice as many: 50 for each wave of the functions of which maps are made. Finer ones take
 // more time and tell nothing more.
 constexpr int kSearchedOn = 10000;
-// Markers are refined by a fit of the template with so many triangles. Those of finer fits are no
-// better.
-constexpr int kRefinedOn = 4000;
+// The markers of the last fit are those on which fits of the template and of the target onto each
+// other agree, with so many triangles: of so many vertices those whose places in both are no
+// farther apart than this.
+constexpr int kFittedBothWaysOn = 4000;
+constexpr size_t kMarkersOfBoth = 200;
+constexpr double kAgree = 0.1;
 
 // Candidates of a part are judged by fits of it with so many triangles, which find the same maps as
 // those with twice as many.
@@ -259,9 +262,7 @@ class Finder {
     fit.candidate = candidate;
     fit.deformation = PartDeformation(stretch, coarse.body, from_.frame, result);
     fit.figures = matcher_.Compare(of_coarse, coarse.vertices);
-    for (const int y : NearestOf(*target_.connectivity, target_.own, coarse.vertices)) {
-      fit.to_template.push_back(y < 0 ? 0 : of_coarse[coarse.IndexOf(y)]);
-    }
+    fit.to_template = ImagesOfAll(target_, coarse, of_coarse);
     return fit;
   }
 
@@ -277,7 +278,7 @@ class Finder {
       try {
         for (int repeat = 0; repeat < kRepeats; ++repeat) {
           last.candidate.markers =
-              matcher_.RefineMarkers(last.candidate, {}, last.to_template, given_pairs_, own);
+              matcher_.RefinePartMarkers(last.candidate, last.to_template, given_pairs_, own);
           last = FitPart(last.candidate, own);
           last.row = best.row;
           if (last.Cost() < best.Cost()) best = last;
@@ -436,41 +437,73 @@ class Finder {
     }
   }
 
-  // Markers of the map of functions that a fit of the coarse template makes.
-  Pairs Refine(const MapCandidate& candidate, const CoarseBody& coarse,
-               const CorrespondenceResult& fit) const {
-    const std::vector<int> of_coarse = NearestCorners(fit.map.to_target, *target_.connectivity);
-    std::vector<int> to_target, to_template;
-    for (const int v : matcher_.NearestOf(coarse.vertices)) {
-      to_target.push_back(of_coarse[std::max(0, v)]);  // none: the matcher knows that one neither
+  // Of each vertex of the body the image of the coarse one that is nearest along the surface.
+  // Vertices of components that have none are as good as anywhere.
+  static std::vector<int> ImagesOfAll(const FitBody& body, const CoarseBody& coarse,
+                                      const std::vector<int>& images) {
+    std::vector<int> all;
+    for (const int v : NearestOf(*body.connectivity, body.own, coarse.vertices)) {
+      all.push_back(v < 0 ? 0 : images[coarse.IndexOf(v)]);
     }
-    for (const int v : NearestCorners(fit.map.to_template, *coarse.body.connectivity)) {
-      to_template.push_back(coarse.vertices[v]);
-    }
-    return matcher_.RefineMarkers(candidate, to_target, to_template, given_pairs_, progress_);
+    return all;
   }
 
-  // Markers for the whole template: those of a map of functions that a fit of the coarser one with
-  // the candidate's makes, or, of a part, all over it, at the places that its own fit has found.
+  // The map of all vertices of one body to the other that a fit makes.
+  std::vector<int> MapByFit(const FitBody& body, const FitBody& onto, const Markers& markers,
+                            Progress* progress) const {
+    const CoarseBody coarse = Coarsen(
+        body, kFittedBothWaysOn, MarkerVertices(markers, &CorrespondenceMarker::template_vertex));
+    const CorrespondenceResult fit = Fit(coarse, onto, markers, progress);
+    return ImagesOfAll(body, coarse, NearestCorners(fit.map.to_target, *onto.connectivity));
+  }
+
+  // Markers all over the bodies, where fits in both directions agree. Of bodies that differ much
+  // each has limbs that are not reached in one of the directions.
+  Markers MarkersOfBothWays(const Markers& markers) const {
+    std::vector<int> to_target, to_template;
+    TaskGroup(progress_, "both ways", 2).RunAll(2, [&](int i, Progress* own) {
+      if (i == 0) {
+        to_target = MapByFit(from_, target_, markers, own);
+      } else {
+        to_template = MapByFit(target_, from_, Reversed(markers), own);
+      }
+    });
+    const Pairs pairs = matcher_.SpreadPairs(to_template, kMarkersOfBoth, given_pairs_);
+    Pairs agreed = given_pairs_;
+    for (size_t i = given_pairs_.size(); i < pairs.size(); ++i) {
+      const auto& [from, to] = pairs[i];
+      if ((target_.own.col(to_target[from]) - target_.own.col(to)).norm() < kAgree) {
+        agreed.push_back(pairs[i]);
+      }
+    }
+    return All(agreed);
+  }
+
+  // Markers for the whole template, all over what it has in common with the target.
   Markers FinalMarkers(const CandidateFit& chosen) const {
     if (matcher_.TargetIsPart()) {
       return All(matcher_.SpreadPairs(chosen.to_template, kMarkersOfPart, given_pairs_));
     }
-    const Markers markers = All(chosen.candidate.markers);
-    const CoarseBody coarse =
-        Coarsen(from_, kRefinedOn, MarkerVertices(markers, &CorrespondenceMarker::template_vertex));
-    const CorrespondenceResult fit = Fit(coarse, target_, markers, progress_);
-    return All(Refine(chosen.candidate, coarse, fit));
+    return MarkersOfBothWays(All(chosen.candidate.markers));
   }
 
-  CorrespondenceResult FitWhole(const CandidateFit& chosen) const {
-    Markers markers = FinalMarkers(chosen);
+  CorrespondenceResult FitWhole(Markers markers) const {
     for (CorrespondenceMarker& marker : markers) {
       marker.template_vertex = searched_from_.vertices[marker.template_vertex];
       marker.target_vertex = searched_target_.vertices[marker.target_vertex];
     }
     return FitWithMarkers(whole_from_, whole_target_, markers, given_.size(), options_, begun_,
                           Folds::kUnfold, progress_);
+  }
+
+  CorrespondenceResult FitWhole(const CandidateFit& chosen) const {
+    try {
+      return FitWhole(FinalMarkers(chosen));
+    } catch (const SolverError&) {
+      // The bodies have so little in common that triangles collapse between so many markers. With
+      // the candidate's own, which are fewer, it has been fitted.
+      return FitWhole(All(chosen.candidate.markers));
+    }
   }
 
   const Stopwatch stopwatch_;

@@ -12,12 +12,11 @@
 namespace shapespace::internal {
 namespace {
 
-// Vertices that determine a map, and those that do in its refinement, of MatchingBody::spread.
-constexpr int kMapSamples = 400, kRefinedSamples = 1000;
+// Vertices that determine a map, of MatchingBody::spread.
+constexpr int kMapSamples = 400;
 // Numbers of functions. From 10 on instead of 16, ZoomOut loses what is front and back; beyond 60
 // it gains nothing that a fit does not.
 const std::vector<int> kCoarse = {16, 22, 28, 34, 40}, kFine = {45, 50, 55, 60};
-const std::vector<int> kRefined = {40, 50, 60, 70, 80, 90, 100};
 // Weight of normals beside positions, whose unit is the root of the area: they tell the two sides
 // of a leaf apart.
 constexpr float kNormalWeight = 0.2F;
@@ -96,16 +95,6 @@ void ZoomOutAll(const SpectralPoints& on_template, const SpectralPoints& on_targ
   ParallelFor(static_cast<int>(maps->size()), [&](int i) {
     for (const int count : counts) ZoomOut(on_template, on_target, count, &(*maps)[i].map);
   });
-}
-
-// The map of the first vertices in `from`, as indices into `to`.
-std::vector<int> Reindexed(const std::vector<int>& map, const std::vector<int>& from, int count,
-                           const std::vector<int>& to) {
-  std::vector<int> index(to.size());
-  for (size_t i = 0; i < to.size(); ++i) index[to[i]] = static_cast<int>(i);
-  std::vector<int> result;
-  for (int i = 0; i < count; ++i) result.push_back(index[map[from[i]]]);
-  return result;
 }
 
 }  // namespace
@@ -191,24 +180,6 @@ std::vector<CandidateMap> MakeMaps(const MatchingBody& on_template, const Matchi
   ZoomOutAll(first, second, fine, &maps);
   RemoveRepeated(on_target, &SpectralMap::to_target, &maps);
   return maps;
-}
-
-SpectralMap RefineMap(const MatchingBody& on_template, const MatchingBody& on_target,
-                      const std::vector<int>& to_target, const std::vector<int>& to_template,
-                      Progress* progress) {
-  const std::vector<int> counts = Possible(kRefined, on_template, on_target);
-  const SpectralPoints first(on_template.spectrum, on_template.SpreadFirst(), kRefinedSamples,
-                             counts);
-  const SpectralPoints second(on_target.spectrum, on_target.SpreadFirst(), kRefinedSamples, counts);
-  SpectralMap map;
-  map.to_target = Reindexed(to_target, first.Vertices(), first.NumSamples(), second.Vertices());
-  map.to_template =
-      Reindexed(to_template, second.Vertices(), second.NumSamples(), first.Vertices());
-  for (const int count : counts) {
-    ReportProgress(progress, "refined map", count, counts.back());
-    ZoomOut(first, second, count, &map);
-  }
-  return map;
 }
 
 }  // namespace shapespace::internal

@@ -51,12 +51,6 @@ std::vector<CandidateMap> MakeMaps(const MatchingBody& on_template, const Matchi
 void RemoveRepeated(const MatchingBody& body, std::vector<int> SpectralMap::*direction,
                     std::vector<CandidateMap>* maps);
 
-/// A finer map of functions from one of vertices, with which each vertex of the template has one of
-/// the target, and the reverse.
-SpectralMap RefineMap(const MatchingBody& on_template, const MatchingBody& on_target,
-                      const std::vector<int>& to_target, const std::vector<int>& to_template,
-                      Progress* progress);
-
 }  // namespace shapespace::internal
 
 #endif  // SHAPESPACE_MATCHING_DETAIL_CANDIDATE_MAPS_H_

@@ -5,7 +5,7 @@
 namespace shapespace::internal {
 namespace {
 
-// As many as the second round of matching uses.
+// As many as the finest maps of parts have.
 constexpr int kFunctions = 100;
 constexpr int kEvenSamples = 200;
 constexpr int kSpread = 1500;
@@ -65,15 +65,5 @@ Eigen::MatrixXf MatchingBody::Smooth(const Eigen::MatrixXf& field,
 }
 
 bool MatchingBody::IsInner(int vertex) const { return from_border(vertex) > kBesideBorder; }
-
-std::vector<int> MatchingBody::SpreadFirst() const {
-  std::vector<int> vertices = spread;
-  std::vector<bool> has(surface.NumVertices(), false);
-  for (const int v : vertices) has[v] = true;
-  for (int v = 0; v < surface.NumVertices(); ++v) {
-    if (!has[v]) vertices.push_back(v);
-  }
-  return vertices;
-}
 
 }  // namespace shapespace::internal

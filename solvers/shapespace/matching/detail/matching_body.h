@@ -28,9 +28,6 @@ struct MatchingBody {
   /// eigenfunctions, at chosen vertices: rows.size() x columns.
   Eigen::MatrixXf Smooth(const Eigen::MatrixXf& field, const std::vector<int>& rows) const;
 
-  /// The vertices of `spread`, and then all others.
-  std::vector<int> SpreadFirst() const;
-
   /// Whether it lacks a part: has a border longer than that of a hole.
   bool IsOpen() const { return border.longest > kLongestHole; }
 

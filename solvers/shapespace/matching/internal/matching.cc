@@ -63,23 +63,22 @@ VertexPairs OnWorkingSurfaces(const VertexPairs& pairs, const WorkingSurface& on
   return known;
 }
 
-// A map of the vertices of one body as one of its working surface's to the other body's.
-std::vector<int> OnSurfaces(const std::string& name, const std::vector<int>& map,
-                            const WorkingSurface& from, const WorkingSurface& to) {
-  if (map.size() != from.nearest.size()) {
-    throw MeshError("a map of the " + name + " has " + std::to_string(map.size()) +
-                    " entries for " + std::to_string(from.nearest.size()) + " vertices");
+// A map of the target's vertices to the template as one of the target's working surface.
+std::vector<int> OnSurfaces(const std::vector<int>& map, const WorkingSurface& on_target,
+                            const WorkingSurface& on_template) {
+  if (map.size() != on_target.nearest.size()) {
+    throw MeshError("a map of the target has " + std::to_string(map.size()) + " entries for " +
+                    std::to_string(on_target.nearest.size()) + " vertices");
   }
   std::vector<int> result;
-  for (const int v : from.vertices) {
+  for (const int v : on_target.vertices) {
     const int image = map[v];
-    if (image < 0 || image >= static_cast<int>(to.nearest.size())) {
-      throw MeshError("vertex " + std::to_string(v + 1) + " of the " + name +
-                      " is mapped to vertex " + std::to_string(image + 1) +
-                      ", which the other body does not have");
+    if (image < 0 || image >= static_cast<int>(on_template.nearest.size())) {
+      throw MeshError("vertex " + std::to_string(v + 1) + " of the target is mapped to vertex " +
+                      std::to_string(image + 1) + ", which the template does not have");
     }
     // What a fit has placed on another component is as good as anywhere.
-    result.push_back(std::max(0, to.nearest[image]));
+    result.push_back(std::max(0, on_template.nearest[image]));
   }
   return result;
 }
@@ -408,27 +407,20 @@ std::vector<int> SurfaceMatcher::MapVertices(const MapCandidate& candidate) cons
   return map;
 }
 
-std::vector<std::pair<int, int>> SurfaceMatcher::RefineMarkers(
-    const MapCandidate& candidate, const std::vector<int>& to_target,
-    const std::vector<int>& to_template, const std::vector<std::pair<int, int>>& given,
-    Progress* progress) const {
+std::vector<std::pair<int, int>> SurfaceMatcher::RefinePartMarkers(
+    const MapCandidate& candidate, const std::vector<int>& to_template,
+    const std::vector<std::pair<int, int>>& given, Progress* progress) const {
   const MatchingBody &first = *template_, &second = *target_;
-  const bool is_part = TargetIsPart();
-  const Directions directions = is_part ? Directions::kToTemplate : Directions::kBoth;
   CheckPairs(given, first.surface, second.surface);
-  std::vector<int> there;
-  if (!is_part) there = OnSurfaces("template", to_target, first.surface, second.surface);
-  const std::vector<int> back = OnSurfaces("target", to_template, second.surface, first.surface);
-  const SpectralMap map = is_part ? RefinePartMap(first, second, back, progress)
-                                  : RefineMap(first, second, there, back, progress);
+  const std::vector<int> back = OnSurfaces(to_template, second.surface, first.surface);
+  const SpectralMap map = RefinePartMap(first, second, back, progress);
   VertexPairs extremities;
   for (const auto& [from, to] : candidate.extremities) {
     extremities.emplace_back(first.surface.nearest[from], second.surface.nearest[to]);
   }
-  return AllMarkers(first, second, map, extremities, given, directions, [&](int from, int to) {
-    return is_part ? StraightDistance(first, back[to], from) <= kAgrees
-                   : StraightDistance(second, there[from], to) <= kAgrees;
-  });
+  return AllMarkers(
+      first, second, map, extremities, given, Directions::kToTemplate,
+      [&](int from, int to) { return StraightDistance(first, back[to], from) <= kAgrees; });
 }
 
 }  // namespace shapespace::internal

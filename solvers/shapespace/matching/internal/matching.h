@@ -111,16 +111,14 @@ class SurfaceMatcher {
   Matching FindCandidates(const std::vector<std::pair<int, int>>& given = {},
                           Progress* progress = nullptr) const;
 
-  /// Markers of a map that was fitted with those of a candidate: as there, with finer detail, and
-  /// without those on whose place the fit does not agree. `to_target` has for each vertex of the
-  /// template the one of the target nearest to its place in the fit, `to_template` the reverse. If
-  /// the target is a part, `to_target` is not read.
-  /// \throw MeshError if they have other numbers of entries, or entries out of range; Cancelled.
-  std::vector<std::pair<int, int>> RefineMarkers(const MapCandidate& candidate,
-                                                 const std::vector<int>& to_target,
-                                                 const std::vector<int>& to_template,
-                                                 const std::vector<std::pair<int, int>>& given = {},
-                                                 Progress* progress = nullptr) const;
+  /// Of a target that is a part: markers of a map that was fitted with those of a candidate, as
+  /// there, with finer detail, and without those on whose place the fit does not agree.
+  /// `to_template` has for each vertex of the target the one of the template nearest to its place
+  /// in the fit.
+  /// \throw MeshError if it has another number of entries, or entries out of range; Cancelled.
+  std::vector<std::pair<int, int>> RefinePartMarkers(
+      const MapCandidate& candidate, const std::vector<int>& to_template,
+      const std::vector<std::pair<int, int>>& given = {}, Progress* progress = nullptr) const;
 
   /// The given pairs, and pairs of a map of the target to the template (`to_template`: a vertex of
   /// it for each of the target) up to `count` in all: vertices that are spread evenly over the
