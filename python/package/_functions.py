@@ -1037,7 +1037,8 @@ class Correspondence:
         The template's vertices on the target's surface, n x 3.
     map : SurfaceMap
     markers : ndarray
-        k x 2, from 0: those that constrained the fit, given and found.
+        k x 2, from 0: those that constrained the fit, given ones and of those that were found up
+        to 40.
     summary : CorrespondenceSummary
     """
 

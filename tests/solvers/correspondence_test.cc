@@ -78,7 +78,9 @@ TEST(Correspond, FindsTheMapWithoutMarkers) {
   EXPECT_TRUE(result.summary.Converged()) << result.summary.FullReport();
   EXPECT_LT(bodies.Errors(result.map).mean(), 1.5 * with_markers) << result.summary.FullReport();
   ASSERT_FALSE(result.summary.candidates.empty());
+  // As many as a person can look at.
   EXPECT_GT(result.markers.size(), 10u);
+  EXPECT_LE(result.markers.size(), 40u);
   for (const CorrespondenceMarker& marker : result.markers) EXPECT_TRUE(marker.soft);
   EXPECT_TRUE(std::any_of(result.summary.candidates.begin(), result.summary.candidates.end(),
                           [](const auto& candidate) { return candidate.chosen; }));

@@ -161,8 +161,8 @@ struct CorrespondenceResult {
   Shape fitted;
   SurfaceMap map;
   CorrespondenceSummary summary;
-  /// Those that constrained the fit, given and found, in ascending order of the template's
-  /// vertices.
+  /// Those that constrained the fit, in ascending order of the template's vertices: given ones,
+  /// and of those that were found up to 40, all over the body.
   std::vector<CorrespondenceMarker> markers;
   /// For each vertex of the template the part in doubt to which it belongs, as an index into
   /// CorrespondenceSummary::parts_in_doubt, or -1. Empty if no markers were found.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -49,6 +50,8 @@ constexpr int kSearchedOn = 10000;
 constexpr int kFittedBothWaysOn = 4000;
 constexpr size_t kMarkersOfBoth = 200;
 constexpr double kAgree = 0.1;
+// The caller is told so many of the found ones, which a person can look at and mend.
+constexpr size_t kMarkersTold = 40;
 
 // Candidates of a part are judged by fits of it with so many triangles, which find the same maps as
 // those with twice as many.
@@ -492,8 +495,19 @@ class Finder {
       marker.template_vertex = searched_from_.vertices[marker.template_vertex];
       marker.target_vertex = searched_target_.vertices[marker.target_vertex];
     }
-    return FitWithMarkers(whole_from_, whole_target_, markers, given_.size(), options_, begun_,
-                          Folds::kUnfold, progress_);
+    CorrespondenceResult result = FitWithMarkers(whole_from_, whole_target_, markers, given_.size(),
+                                                 options_, begun_, Folds::kUnfold, progress_);
+    // The first ones are spread over the body.
+    std::set<int> told;
+    for (size_t i = 0; i < std::min(markers.size(), given_.size() + kMarkersTold); ++i) {
+      told.insert(markers[i].template_vertex);
+    }
+    result.markers.erase(std::remove_if(result.markers.begin(), result.markers.end(),
+                                        [&](const CorrespondenceMarker& marker) {
+                                          return told.count(marker.template_vertex) == 0;
+                                        }),
+                         result.markers.end());
+    return result;
   }
 
   CorrespondenceResult FitWhole(const CandidateFit& chosen) const {
