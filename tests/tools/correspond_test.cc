@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <fstream>
 #include <iomanip>
+#include <sstream>
+#include <string>
 
 #include <nlohmann/json.hpp>
 
@@ -218,7 +220,12 @@ TEST_F(CorrespondTest, WritesTheMarkersThatItFinds) {
   Succeed("shape-correspond", {"a0.obj", "b1.obj", "--markers", "found.txt", "--soft_markers",
                                "--output", "again.obj", "--report", "again.json"});
   const json again = json::parse(Content(Path("again.json")));
-  EXPECT_EQ(again["markers"], report["markers"]);
+  std::istringstream found(Content(Path("found.txt")));
+  int pairs = 0;
+  for (std::string line; std::getline(found, line);) pairs += line[0] == '#' ? 0 : 1;
+  EXPECT_GT(pairs, 10);
+  EXPECT_EQ(again["markers"], pairs);
+  EXPECT_GE(report["markers"], pairs);
   EXPECT_TRUE(again["candidates"].empty());
 }
 
