@@ -224,6 +224,7 @@ TEST_F(CorrespondTest, WritesTheMarkersThatItFinds) {
   int pairs = 0;
   for (std::string line; std::getline(found, line);) pairs += line[0] == '#' ? 0 : 1;
   EXPECT_GT(pairs, 10);
+  EXPECT_LE(pairs, 40);
   EXPECT_EQ(again["markers"], pairs);
   EXPECT_GE(report["markers"], pairs);
   EXPECT_TRUE(again["candidates"].empty());

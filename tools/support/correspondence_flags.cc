@@ -21,8 +21,8 @@ DEFINE_string(markers, "",
               ".mrk.json of 3D Slicer, or text with x y z in each line");
 DEFINE_string(
     markers_out, "",
-    "a file for the markers that were used, those found included: look at them, mend one, "
-    "and name the file with --markers");
+    "a file for the markers that were used, up to 40 found ones among them: look at them, mend "
+    "one, and name the file with --markers");
 DEFINE_bool(soft_markers, false,
             "do not meet markers exactly, for landmarks that are some millimetres off");
 DEFINE_bool(hold_all_markers, false, "use all markers, including those that contradict the others");

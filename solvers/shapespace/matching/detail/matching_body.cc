@@ -5,7 +5,7 @@
 namespace shapespace::internal {
 namespace {
 
-// As many as the finest maps of parts have.
+// As many as the finest maps of parts have. The bodies' heat is compared with all of them.
 constexpr int kFunctions = 100;
 constexpr int kEvenSamples = 200;
 constexpr int kSpread = 1500;

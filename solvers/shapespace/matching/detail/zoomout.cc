@@ -1,7 +1,6 @@
 #include <shapespace/matching/detail/zoomout.h>
 
 #include <algorithm>
-#include <utility>
 
 #include <Eigen/Cholesky>
 
@@ -23,14 +22,13 @@ Eigen::MatrixXf Gather(const Eigen::MatrixXf& columns, int rows, const std::vect
 
 }  // namespace
 
-SpectralPoints::SpectralPoints(const Spectrum& spectrum, std::vector<int> vertices, int samples,
-                               const std::vector<int>& counts)
-    : vertices_(std::move(vertices)),
-      samples_(std::min(samples, static_cast<int>(vertices_.size()))) {
+SpectralPoints::SpectralPoints(const Spectrum& spectrum, const std::vector<int>& vertices,
+                               int samples, const std::vector<int>& counts)
+    : samples_(std::min(samples, static_cast<int>(vertices.size()))) {
   const int most = *std::max_element(counts.begin(), counts.end());
-  Eigen::MatrixXd functions(most, vertices_.size());
-  for (size_t i = 0; i < vertices_.size(); ++i) {
-    functions.col(i) = spectrum.functions.row(vertices_[i]).head(most).transpose();
+  Eigen::MatrixXd functions(most, vertices.size());
+  for (size_t i = 0; i < vertices.size(); ++i) {
+    functions.col(i) = spectrum.functions.row(vertices[i]).head(most).transpose();
   }
   for (const int count : counts) {
     const auto sampled = functions.topLeftCorner(count, samples_);

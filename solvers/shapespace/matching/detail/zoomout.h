@@ -15,10 +15,9 @@ namespace shapespace::internal {
 class SpectralPoints {
  public:
   /// Prepared for each number of functions in `counts`.
-  SpectralPoints(const Spectrum& spectrum, std::vector<int> vertices, int samples,
+  SpectralPoints(const Spectrum& spectrum, const std::vector<int>& vertices, int samples,
                  const std::vector<int>& counts);
 
-  const std::vector<int>& Vertices() const { return vertices_; }
   int NumSamples() const { return samples_; }
   /// The functions at the vertices, as many as the greatest count x vertices.
   const Eigen::MatrixXf& Functions() const { return functions_; }
@@ -27,13 +26,12 @@ class SpectralPoints {
   Eigen::MatrixXf Coefficients(int count, const Eigen::MatrixXf& values) const;
 
  private:
-  std::vector<int> vertices_;
   int samples_;
   Eigen::MatrixXf functions_;
   std::map<int, Eigen::MatrixXf> inverses_;  // per count, count x samples
 };
 
-/// A map between two bodies in both directions: of vertices, as indices into the Vertices() of the
+/// A map between two bodies in both directions: of vertices, as indices into the vertices of the
 /// other body's SpectralPoints, for the samples of each; and of functions.
 struct SpectralMap {
   std::vector<int> to_target, to_template;
