@@ -22,8 +22,17 @@ for page in ceres deforming exploring features levels library; do
 done
 
 cmake --install "$build" --prefix "$work/prefix" >"$work/install.log"
-headers=$(cd "$work/prefix/include" && find shapespace -name '*.h' | sort | paste -sd ';')
-[[ $headers == *shapespace/geodesic/geodesic.h* ]] || fail "headers are missing: $headers"
+# Each header is compiled alone: those of the core without Ceres below, but for the one that defines
+# features, the others here.
+core=(shapespace/{base,mesh,files,metric,path,hierarchy,analysis})
+with_ceres=shapespace/metric/define_feature.h
+cd "$work/prefix/include"
+find shapespace -name '*.h' | sort >"$work/headers.txt"
+find "${core[@]}" -name '*.h' | grep -vx $with_ceres | sort >"$work/core_headers.txt"
+core_headers=$(paste -sd ';' "$work/core_headers.txt")
+headers=$(comm -23 "$work/headers.txt" "$work/core_headers.txt" | paste -sd ';')
+[[ $headers == *shapespace/geodesic/geodesic.h* && $headers == *$with_ceres* ]] ||
+  fail "headers are missing: $headers"
 
 flags=(-march=native -fsanitize=address)
 if grep -qw avx2 /proc/cpuinfo; then flags+=(-mavx2); fi
@@ -64,10 +73,7 @@ awk '/^share/ { share = $NF } END { exit !(share > .99 && share < 1.01) }' repor
   fail "the guide's loop over levels does not end at Interpolate's energy"
 [[ $(head -c 4 walk.glb) == glTF ]] || fail "walk.glb is no glTF"
 
-# The core without Ceres: each of its headers alone, but for the one that defines features.
-core_headers=$(cd "$work/prefix/include" &&
-  find shapespace/{base,mesh,files,metric,path,hierarchy,analysis} -name '*.h' |
-  grep -vx shapespace/metric/define_feature.h | sort | paste -sd ';')
+# The core without Ceres.
 cmake -S "$here/core" -B "$work/core" -G Ninja -DCMAKE_BUILD_TYPE=Release "$unoptimised" \
   -DHEADERS="$core_headers" \
   -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_DISABLE_FIND_PACKAGE_Ceres=ON >"$work/configure.log" ||

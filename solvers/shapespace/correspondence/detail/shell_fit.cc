@@ -13,6 +13,10 @@ namespace {
 // Penalty on the motion of vertices in an iteration; keeps the system definite.
 constexpr double kMotion = 1e-6;
 constexpr int kHalvings = 8;
+// No vertex moves farther in a step, as a share of the root of the area. A triangle that hangs by
+// one vertex or two has nothing to hold it but its strain, whose logarithm lets it leave, farther
+// with each step, and the steps of all others are shortened for it.
+constexpr double kFarthestStep = 0.3;
 
 MetricOptions ShellMetric(double bending) {
   MetricOptions options = MetricOptions::Strain();
@@ -122,8 +126,9 @@ double ShellFit::Step(const std::vector<PointToPlaneTerm>& user_terms, Shape* us
     factor_->Update(matrix_);
   }
   const Eigen::VectorXd solution = Solve(*factor_, gradient.reshaped());
-  const Eigen::Map<const Shape> step(solution.data(), 3, shape.cols());
+  Shape step = solution.reshaped(3, shape.cols());
   const double motion = std::sqrt(metric_->vertex_area.dot(step.colwise().squaredNorm()));
+  for (auto own : step.colwise()) own *= std::min(1.0, kFarthestStep / own.norm());
 
   double factor = 1;
   for (int halving = 0; halving <= kHalvings; ++halving, factor *= 0.5) {
