@@ -12,6 +12,7 @@
 #include <shapespace/base/error.h>
 #include <shapespace/bodies/quadruped.h>
 #include <shapespace/correspondence/correspondence.h>
+#include <shapespace/geodesic/geodesic.h>
 #include <shapespace/matching/detail/border.h>
 #include <shapespace/matching/detail/matching_body.h>
 #include <shapespace/matching/detail/part_maps.h>
@@ -101,6 +102,25 @@ struct CutAnimal {
   // The mean distance of places from those that are right, as a share of the template's root area.
   double Error(const Shape& found) const {
     return (found - places).colwise().norm().mean() / std::sqrt(Area(*body.connectivity, rest));
+  }
+
+  // How far the shape halfway to a fit is from the one halfway to the pose, where the part shows
+  // the body: the mean distance, as a share of the root of the area.
+  double PathError(const std::string& pose, const Shape& fitted) const {
+    const auto halfway = [&](const Shape& end) {
+      GeodesicOptions options;
+      options.shapes = 1;
+      return Interpolate(body.connectivity, {rest, end}, options).path.Placed(1);
+    };
+    const Shape error = halfway(fitted) - halfway(body.pose(pose));
+    double sum = 0;
+    int count = 0;
+    for (int v = 0; v < rest.cols(); ++v) {
+      if (rest(2, v) <= kCut) continue;
+      sum += error.col(v).norm();
+      ++count;
+    }
+    return sum / count / std::sqrt(Area(*body.connectivity, rest));
   }
 
   static constexpr double kCut = -0.25;
@@ -280,6 +300,7 @@ TEST(Correspond, FindsWhereAPartBelongs) {
     EXPECT_LT(animal.Error(found), 0.03) << pose << result.summary.FullReport();
     EXPECT_NEAR(result.summary.scale, 1, 0.08) << pose;
     EXPECT_LT(result.summary.uncovered, 0.02) << pose;
+    EXPECT_LT(animal.PathError(pose, result.fitted), 0.03) << pose;
     EXPECT_NEAR(Area(*animal.body.connectivity, result.fitted) /
                     Area(*animal.body.connectivity, animal.rest),
                 1, 0.1)
