@@ -16,6 +16,7 @@
 #include <shapespace/correspondence/detail/closest.h>
 #include <shapespace/correspondence/detail/coarse_body.h>
 #include <shapespace/correspondence/detail/gradient_fit.h>
+#include <shapespace/correspondence/detail/map_doubt.h>
 #include <shapespace/correspondence/detail/smooth_stretch.h>
 #include <shapespace/correspondence/detail/unfold.h>
 
@@ -193,6 +194,47 @@ TEST(GradientFit, WithOneVertexHeldTheBodyKeepsItsShape) {
     const Shape fitted = GradientFit(*tube.connectivity, rest, {7}, identity)(rest.col(7) + way);
     EXPECT_LT((fitted - (rest.colwise() + way)).norm(), 1e-4 * rest.norm()) << identity;
   }
+}
+
+// Three maps of a sheet to itself: one that keeps all in place, one that costs little more and
+// exchanges its ends, and one that costs twice as much and mirrors it. In doubt are the ends.
+TEST(MapDoubt, NamesThePartsThatACheapMapSendsElsewhere) {
+  const ShapeFamily sheet = MakeSheet(3, 1, 30, 10);
+  const FitBody body(sheet.connectivity, sheet.pose(0));
+  const int count = sheet.connectivity->NumVertices();
+  const auto mirrored = [&](int v) {
+    Eigen::Index image;
+    const Eigen::Vector3d place(-body.shape(0, v), body.shape(1, v), 0);
+    (body.shape.colwise() - place).colwise().squaredNorm().minCoeff(&image);
+    return static_cast<int>(image);
+  };
+  const auto is_end = [&](int v) { return std::abs(body.shape(0, v)) > 1; };
+  std::vector<CandidateFit> fits(3);
+  for (int v = 0; v < count; ++v) {
+    fits[0].to_target.push_back(v);
+    fits[1].to_target.push_back(is_end(v) ? mirrored(v) : v);
+    fits[2].to_target.push_back(mirrored(v));
+  }
+  for (size_t i = 0; i < fits.size(); ++i) {
+    fits[i].figures = {1, 1, 1};
+    fits[i].deformation = std::vector<double>{1, 1.2, 2}[i];
+  }
+  const MapDoubt doubt(body, body.own, fits);
+  ASSERT_EQ(doubt.parts.size(), 2u);
+  for (int v = 0; v < count; ++v) EXPECT_EQ(doubt.part_of[v] >= 0, is_end(v)) << v;
+  for (const auto& part : doubt.parts) {
+    EXPECT_NEAR(part.share, 1 / 6., 0.03);
+    EXPECT_NEAR(part.cost, 1.2, 1e-12);
+    // The corner or side that is farthest from its other image.
+    EXPECT_NEAR(std::abs(body.shape(0, part.vertex)), 1.5, 1e-12);
+    EXPECT_EQ(part.target_vertex, part.vertex);
+    EXPECT_EQ(part.other_vertex, mirrored(part.vertex));
+  }
+  EXPECT_NE(doubt.part_of[doubt.parts[0].vertex], doubt.part_of[doubt.parts[1].vertex]);
+  EXPECT_NEAR(Certainty(body.own, fits), 1.2, 1e-12);
+  fits.resize(1);
+  EXPECT_TRUE(std::isnan(Certainty(body.own, fits)));
+  EXPECT_TRUE(MapDoubt(body, body.own, fits).parts.empty());
 }
 
 }  // namespace

@@ -11,14 +11,14 @@
 #include <shapespace/base/internal/stopwatch.h>
 #include <shapespace/base/internal/task_group.h>
 #include <shapespace/base/parallel.h>
+#include <shapespace/correspondence/detail/candidate_fit.h>
 #include <shapespace/correspondence/detail/check_input.h>
-#include <shapespace/correspondence/detail/closest.h>
 #include <shapespace/correspondence/detail/coarse_body.h>
+#include <shapespace/correspondence/detail/map_doubt.h>
 #include <shapespace/correspondence/detail/marker_distances.h>
 #include <shapespace/correspondence/detail/nearest_corners.h>
 #include <shapespace/correspondence/detail/smooth_stretch.h>
 #include <shapespace/matching/internal/matching.h>
-#include <shapespace/mesh/internal/sides.h>
 #include <shapespace/summary/internal/report.h>
 
 namespace shapespace::internal {
@@ -26,14 +26,6 @@ namespace {
 
 using Pairs = std::vector<std::pair<int, int>>;
 
-// Two maps send a vertex to different places if these are farther apart than this share of the root
-// of the area, and are different ones if they do so with this share of the vertices.
-constexpr double kApart = 0.1, kOtherShare = 0.1;
-// Below this ratio of costs the choice between two maps is in doubt. Of 55 pairs with known answers
-// one was wrong, with 1.08; of 26 pairs of people in poses the right ones had 1.26 or more.
-constexpr double kDoubt = 1.25;
-// Smaller parts are not worth a word: ears, fingers.
-constexpr double kPartShare = 0.01;
 // Fits that deform the template more than this are guesses.
 constexpr double kUnlike = 0.5;
 // The same of parts. Of ten on which this was chosen, and of ten others, no right one had more than
@@ -75,20 +67,6 @@ Markers On(const CoarseBody& from, Markers markers) {
   }
   return markers;
 }
-
-// A candidate's fit, and how unlike the bodies are where it joins them.
-struct CandidateFit {
-  MapCandidate candidate;
-  size_t row = 0;                // of the summary's candidates
-  std::vector<int> to_target;    // of each vertex of the coarse template; -1 if a part has none
-  std::vector<int> to_template;  // of each vertex of the target, if it is a part
-  double deformation = kNotComputed;
-  MapFigures figures;
-  double reverse = 1;  // the deformation of the target by the reverse fit, as a share of that with
-                       // the cheapest map; 1 if there is no such fit
-
-  double Cost() const { return deformation * figures.Cost() * reverse; }
-};
 
 // How unlike what was fitted has become to itself.
 double Deformation(const SmoothStretch& stretch, const OwnFrame& frame,
@@ -160,9 +138,6 @@ class Finder {
     }
     for (const CandidateFit& fit : fits_) rows_[fit.row].cost = fit.Cost();
     rows_[fits_[0].row].chosen = true;
-    const std::optional<size_t> other = Other();
-    double certainty = kNotComputed;
-    if (other) certainty = fits_[*other].Cost() / fits_[0].Cost();
     CorrespondenceResult result = FitWhole(fits_[0]);
 
     CorrespondenceSummary& summary = result.summary;
@@ -170,7 +145,7 @@ class Finder {
     summary.template_extremities = matching_.template_extremities;
     summary.target_extremities = matching_.target_extremities;
     summary.matching_seconds = matching_seconds;
-    summary.certainty = certainty;
+    summary.certainty = Certainty(target_.own, fits_);
     summary.parts_in_doubt = parts_;
     result.in_doubt = in_doubt_;
     for (const CorrespondenceSummary::PartInDoubt& part : parts_) {
@@ -369,70 +344,18 @@ class Finder {
     CheapestFirst();
   }
 
-  // How far apart two fits send a vertex of the coarse template, if both do.
-  double Apart(const CandidateFit& a, const CandidateFit& b, int v) const {
-    if (a.to_target[v] < 0 || b.to_target[v] < 0) return 0;
-    return (target_.own.col(a.to_target[v]) - target_.own.col(b.to_target[v])).norm();
-  }
-
-  // The best fit that is another one than the first.
-  std::optional<size_t> Other() const {
-    for (size_t i = 1; i < fits_.size(); ++i) {
-      const auto count = static_cast<int>(fits_[0].to_target.size());
-      int apart = 0;
-      for (int v = 0; v < count; ++v) apart += Apart(fits_[i], fits_[0], v) > kApart ? 1 : 0;
-      if (apart >= kOtherShare * count) return i;
-    }
-    return {};
-  }
-
-  // Connected parts that a fit which costs little more than the first sends elsewhere.
+  // Says which parts of the template are in doubt, with vertices of the whole bodies.
   void FindParts(const CoarseBody& coarse) {
-    const auto count = static_cast<int>(coarse.vertices.size());
-    std::vector<size_t> other(count, 0);  // the first such fit of each vertex
-    for (size_t i = 1; i < fits_.size() && fits_[i].Cost() < kDoubt * fits_[0].Cost(); ++i) {
-      for (int v = 0; v < count; ++v) {
-        if (other[v] == 0 && Apart(fits_[i], fits_[0], v) > kApart) other[v] = i;
-      }
+    MapDoubt doubt(coarse.body, target_.own, fits_);
+    for (CorrespondenceSummary::PartInDoubt& part : doubt.parts) {
+      part.vertex = searched_from_.vertices[coarse.vertices[part.vertex]];
+      part.target_vertex = searched_target_.vertices[part.target_vertex];
+      part.other_vertex = searched_target_.vertices[part.other_vertex];
     }
-    UnionFind connected(count);
-    for (const auto& triangle : coarse.body.connectivity->Triangles().colwise()) {
-      for (int k = 0; k < 3; ++k) {
-        const int v = triangle(k), w = triangle((k + 1) % 3);
-        if (other[v] != 0 && other[v] == other[w]) connected.Join(v, w);
-      }
-    }
-    const Eigen::VectorXd areas = VertexAreas(*coarse.body.connectivity, coarse.body.own);
-    std::vector<CorrespondenceSummary::PartInDoubt> part_of(count);
-    std::vector<double> farthest(count, 0);
-    for (int v = 0; v < count; ++v) {
-      if (other[v] == 0) continue;
-      const int root = connected.Find(v);
-      CorrespondenceSummary::PartInDoubt& part = part_of[root];
-      const CandidateFit& fit = fits_[other[v]];
-      part.share = (part.vertex < 0 ? 0 : part.share) + areas(v);
-      const double apart = Apart(fit, fits_[0], v);
-      if (apart <= farthest[root]) continue;
-      farthest[root] = apart;
-      part.cost = fit.Cost() / fits_[0].Cost();
-      part.vertex = searched_from_.vertices[coarse.vertices[v]];
-      part.target_vertex = searched_target_.vertices[fits_[0].to_target[v]];
-      part.other_vertex = searched_target_.vertices[fit.to_target[v]];
-    }
-    std::vector<int> roots;
-    for (int v = 0; v < count; ++v) {
-      if (part_of[v].share >= kPartShare) roots.push_back(v);
-    }
-    std::stable_sort(roots.begin(), roots.end(),
-                     [&](int a, int b) { return part_of[a].share > part_of[b].share; });
-    for (const int root : roots) parts_.push_back(part_of[root]);
+    parts_ = std::move(doubt.parts);
     std::vector<int> part_on_searched;
     for (const int v : matcher_.NearestOf(coarse.vertices)) {
-      const bool doubted = v >= 0 && other[v] != 0;
-      const auto found =
-          doubted ? std::find(roots.begin(), roots.end(), connected.Find(v)) : roots.end();
-      part_on_searched.push_back(found == roots.end() ? -1
-                                                      : static_cast<int>(found - roots.begin()));
+      part_on_searched.push_back(v < 0 ? -1 : doubt.part_of[v]);
     }
     for (const int v :
          NearestOf(*whole_from_.connectivity, whole_from_.own, searched_from_.vertices)) {
