@@ -237,5 +237,39 @@ TEST(MapDoubt, NamesThePartsThatACheapMapSendsElsewhere) {
   EXPECT_TRUE(MapDoubt(body, body.own, fits).parts.empty());
 }
 
+// The target is the left half of a sheet. Two maps of it, which cost nearly the same, say nothing
+// of the right half, which is not in doubt.
+TEST(MapDoubt, WhatAPartLacksIsNotInDoubt) {
+  const ShapeFamily sheet = MakeSheet(3, 1, 30, 10);
+  const FitBody body(sheet.connectivity, sheet.pose(0));
+  std::vector<int> all, left, upside_down;
+  for (int v = 0; v < sheet.connectivity->NumVertices(); ++v) {
+    all.push_back(v);
+    if (body.shape(0, v) > 0) continue;
+    left.push_back(v);
+    Eigen::Index image;
+    const Eigen::Vector3d place(body.shape(0, v), -body.shape(1, v), 0);
+    (body.shape.colwise() - place).colwise().squaredNorm().minCoeff(&image);
+    upside_down.push_back(static_cast<int>(image));
+  }
+  std::vector<CandidateFit> fits(2);
+  fits[0].to_target = InverseOf(body.own, all, left);
+  fits[1].to_target = InverseOf(body.own, all, upside_down);
+  for (CandidateFit& fit : fits) {
+    fit.figures = {1, 1, 1};
+    fit.deformation = 1;
+  }
+  const MapDoubt doubt(body, body.own(Eigen::all, left), fits);
+  EXPECT_EQ(doubt.parts.size(), 2u);
+  for (const int v : all) {
+    if (body.shape(0, v) > 0.1) {
+      EXPECT_EQ(fits[0].to_target[v], -1);
+      EXPECT_EQ(doubt.part_of[v], -1);
+    } else if (std::abs(body.shape(1, v)) > 0.3 && body.shape(0, v) <= 0) {
+      EXPECT_GE(doubt.part_of[v], 0);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace shapespace::internal

@@ -10,7 +10,6 @@
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/stopwatch.h>
 #include <shapespace/base/internal/task_group.h>
-#include <shapespace/base/parallel.h>
 #include <shapespace/correspondence/detail/candidate_fit.h>
 #include <shapespace/correspondence/detail/check_input.h>
 #include <shapespace/correspondence/detail/coarse_body.h>
@@ -55,8 +54,6 @@ constexpr double kRepeatedBelow = 2;
 constexpr int kRepeats = 2;
 // Markers with which the template is fitted to a part.
 constexpr size_t kMarkersOfPart = 60;
-// A vertex of the template is where a part is if the image of a vertex of the part is so near.
-constexpr double kCoveredBy = 0.05;
 
 using Markers = std::vector<CorrespondenceMarker>;
 
@@ -80,23 +77,6 @@ double PartDeformation(const SmoothStretch& stretch, const FitBody& part, const 
                        const CorrespondenceResult& fit) {
   const double scale = fit.summary.scale * part.frame.unit / frame.unit;
   return stretch.Cost(frame.In(fit.fitted) / scale) + fit.summary.turned;
-}
-
-// For each of some vertices of the template the one of the target whose image is nearest to it; -1
-// where none is near. The images are vertices of the template.
-std::vector<int> InverseOf(const Shape& on_template, const std::vector<int>& vertices,
-                           const std::vector<int>& images) {
-  const Shape places = on_template(Eigen::all, images);
-  std::vector<int> inverse(vertices.size());
-  ParallelFor(static_cast<int>(vertices.size()), [&](int i) {
-    Eigen::Index nearest;
-    const double squared = (places.colwise() - on_template.col(vertices[i]))
-                               .colwise()
-                               .squaredNorm()
-                               .minCoeff(&nearest);
-    inverse[i] = squared < kCoveredBy * kCoveredBy ? static_cast<int>(nearest) : -1;
-  });
-  return inverse;
 }
 
 class Finder {

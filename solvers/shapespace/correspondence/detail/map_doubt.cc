@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include <shapespace/base/parallel.h>
 #include <shapespace/correspondence/detail/closest.h>
 #include <shapespace/mesh/internal/sides.h>
 
@@ -13,6 +14,8 @@ namespace {
 constexpr double kApart = 0.1, kOtherShare = 0.1;
 // Smaller parts are not worth a word: ears, fingers.
 constexpr double kPartShare = 0.01;
+// A vertex of the template is where a part is if the image of a vertex of the part is so near.
+constexpr double kCoveredBy = 0.05;
 
 // How far apart two fits send a vertex of the template, if both do.
 double Apart(const Shape& target, const CandidateFit& a, const CandidateFit& b, int v) {
@@ -77,6 +80,21 @@ double Certainty(const Shape& target, const std::vector<CandidateFit>& fits) {
     if (apart >= kOtherShare * count) return fits[i].Cost() / fits[0].Cost();
   }
   return kNotComputed;
+}
+
+std::vector<int> InverseOf(const Shape& on_template, const std::vector<int>& vertices,
+                           const std::vector<int>& images) {
+  const Shape places = on_template(Eigen::all, images);
+  std::vector<int> inverse(vertices.size());
+  ParallelFor(static_cast<int>(vertices.size()), [&](int i) {
+    Eigen::Index nearest;
+    const double squared = (places.colwise() - on_template.col(vertices[i]))
+                               .colwise()
+                               .squaredNorm()
+                               .minCoeff(&nearest);
+    inverse[i] = squared < kCoveredBy * kCoveredBy ? static_cast<int>(nearest) : -1;
+  });
+  return inverse;
 }
 
 }  // namespace shapespace::internal

@@ -24,6 +24,11 @@ struct MapDoubt {
 /// NaN if there is none.
 double Certainty(const Shape& target, const std::vector<CandidateFit>& fits);
 
+/// For each of some vertices of the template the one of a target that is a part of it whose image,
+/// a vertex of the template, is nearest; -1 where none is near, which the part lacks.
+std::vector<int> InverseOf(const Shape& on_template, const std::vector<int>& vertices,
+                           const std::vector<int>& images);
+
 }  // namespace shapespace::internal
 
 #endif  // SHAPESPACE_CORRESPONDENCE_DETAIL_MAP_DOUBT_H_
