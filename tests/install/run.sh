@@ -24,11 +24,11 @@ done
 cmake --install "$build" --prefix "$work/prefix" >"$work/install.log"
 # Each header is compiled alone: those of the core without Ceres below, but for the one that defines
 # features, the others here.
-core=(shapespace/{base,mesh,files,metric,path,hierarchy,analysis})
 with_ceres=shapespace/metric/define_feature.h
 cd "$work/prefix/include"
 find shapespace -name '*.h' | sort >"$work/headers.txt"
-find "${core[@]}" -name '*.h' | grep -vx $with_ceres | sort >"$work/core_headers.txt"
+find shapespace/{base,mesh,files,metric,path,hierarchy,analysis} -name '*.h' |
+  grep -vx $with_ceres | sort >"$work/core_headers.txt"
 core_headers=$(paste -sd ';' "$work/core_headers.txt")
 headers=$(comm -23 "$work/headers.txt" "$work/core_headers.txt" | paste -sd ';')
 [[ $headers == *shapespace/geodesic/geodesic.h* && $headers == *$with_ceres* ]] ||

@@ -196,18 +196,26 @@ TEST(GradientFit, WithOneVertexHeldTheBodyKeepsItsShape) {
   }
 }
 
+// A flat sheet, as a body of fits.
+struct FlatSheet {
+  ShapeFamily sheet = MakeSheet(3, 1, 30, 10);
+  FitBody body{sheet.connectivity, sheet.pose(0)};
+
+  int Count() const { return sheet.connectivity->NumVertices(); }
+  int At(double x, double y) const {
+    Eigen::Index nearest;
+    (body.shape.colwise() - Eigen::Vector3d(x, y, 0)).colwise().squaredNorm().minCoeff(&nearest);
+    return static_cast<int>(nearest);
+  }
+};
+
 // Three maps of a sheet to itself: one that keeps all in place, one that costs little more and
 // exchanges its ends, and one that costs twice as much and mirrors it. In doubt are the ends.
 TEST(MapDoubt, NamesThePartsThatACheapMapSendsElsewhere) {
-  const ShapeFamily sheet = MakeSheet(3, 1, 30, 10);
-  const FitBody body(sheet.connectivity, sheet.pose(0));
-  const int count = sheet.connectivity->NumVertices();
-  const auto mirrored = [&](int v) {
-    Eigen::Index image;
-    const Eigen::Vector3d place(-body.shape(0, v), body.shape(1, v), 0);
-    (body.shape.colwise() - place).colwise().squaredNorm().minCoeff(&image);
-    return static_cast<int>(image);
-  };
+  const FlatSheet sheet;
+  const FitBody& body = sheet.body;
+  const int count = sheet.Count();
+  const auto mirrored = [&](int v) { return sheet.At(-body.shape(0, v), body.shape(1, v)); };
   const auto is_end = [&](int v) { return std::abs(body.shape(0, v)) > 1; };
   std::vector<CandidateFit> fits(3);
   for (int v = 0; v < count; ++v) {
@@ -240,17 +248,14 @@ TEST(MapDoubt, NamesThePartsThatACheapMapSendsElsewhere) {
 // The target is the left half of a sheet. Two maps of it, which cost nearly the same, say nothing
 // of the right half, which is not in doubt.
 TEST(MapDoubt, WhatAPartLacksIsNotInDoubt) {
-  const ShapeFamily sheet = MakeSheet(3, 1, 30, 10);
-  const FitBody body(sheet.connectivity, sheet.pose(0));
+  const FlatSheet sheet;
+  const FitBody& body = sheet.body;
   std::vector<int> all, left, upside_down;
-  for (int v = 0; v < sheet.connectivity->NumVertices(); ++v) {
+  for (int v = 0; v < sheet.Count(); ++v) {
     all.push_back(v);
     if (body.shape(0, v) > 0) continue;
     left.push_back(v);
-    Eigen::Index image;
-    const Eigen::Vector3d place(body.shape(0, v), -body.shape(1, v), 0);
-    (body.shape.colwise() - place).colwise().squaredNorm().minCoeff(&image);
-    upside_down.push_back(static_cast<int>(image));
+    upside_down.push_back(sheet.At(body.shape(0, v), -body.shape(1, v)));
   }
   std::vector<CandidateFit> fits(2);
   fits[0].to_target = InverseOf(body.own, all, left);

@@ -26,6 +26,7 @@
 #include "support/listener.h"
 #include "support/message_of.h"
 #include "support/motions.h"
+#include "support/part_of.h"
 #include "support/remeshed.h"
 #include "support/thin_triangles.h"
 
@@ -35,8 +36,11 @@ namespace {
 using testing::Listener;
 using testing::MessageOf;
 using testing::Names;
+using testing::Part;
+using testing::PartOf;
 using testing::Remeshed;
 using testing::Rotation;
+using testing::SpreadMarkers;
 
 bool Names(const std::vector<std::string>& warnings, const std::string& part) {
   return std::any_of(warnings.begin(), warnings.end(), [&](const std::string& warning) {
@@ -619,39 +623,17 @@ TEST(Correspond, ComponentsWithoutMarkersFollowTheOthers) {
 // vertex or two. Nothing keeps these from turning, and none may leave the body.
 TEST(Correspond, KeepsWhatHangsOnARoughBorder) {
   const Remeshed bodies("sit");
-  const Shape& shape = bodies.target;
-  const Shape normals = TriangleNormals(*bodies.second.connectivity, shape);
-  const Eigen::Matrix3Xi& triangles = bodies.second.connectivity->Triangles();
+  const Shape normals = TriangleNormals(*bodies.second.connectivity, bodies.target);
   for (const unsigned seed : {1, 2, 3, 4}) {
     std::mt19937 random(seed);
     std::normal_distribution<double> noise(0, 0.4);
-    std::vector<int> index(shape.cols(), -1), vertices, seen;
-    for (int f = 0; f < triangles.cols(); ++f) {
-      if (normals.col(f).dot(Eigen::Vector3d(0.6, 0, 0.8)) + noise(random) < 0.1) continue;
-      for (const int v : triangles.col(f)) {
-        if (index[v] >= 0) continue;
-        index[v] = static_cast<int>(vertices.size());
-        vertices.push_back(v);
-      }
-      seen.push_back(f);
-    }
-    const Eigen::Matrix3Xi kept = triangles(Eigen::all, seen);
-    const Shape side = shape(Eigen::all, vertices),
-                places = bodies.other_rest(Eigen::all, vertices);
-    std::vector<CorrespondenceMarker> markers;
-    Eigen::RowVectorXd distance = (side.colwise() - side.col(0)).colwise().squaredNorm();
-    while (markers.size() < 30) {
-      Eigen::Index from, to;
-      distance.maxCoeff(&from);
-      (bodies.rest.colwise() - places.col(from)).colwise().squaredNorm().minCoeff(&to);
-      markers.push_back({static_cast<int>(from), static_cast<int>(to)});
-      distance = distance.cwiseMin(
-          Eigen::RowVectorXd((side.colwise() - side.col(from)).colwise().squaredNorm()));
-    }
+    const Part side = PartOf(*bodies.second.connectivity, bodies.target, [&](int f) {
+      return normals.col(f).dot(Eigen::Vector3d(0.6, 0, 0.8)) + noise(random) >= 0.1;
+    });
+    const Shape places = bodies.other_rest(Eigen::all, side.vertices);
     const CorrespondenceResult result =
-        Correspond(Connectivity::FromTriangles(static_cast<int>(vertices.size()),
-                                               kept.unaryExpr([&](int v) { return index[v]; })),
-                   side, bodies.first.connectivity, bodies.rest, markers);
+        Correspond(side.connectivity, side.shape, bodies.first.connectivity, bodies.rest,
+                   SpreadMarkers(side.shape, places, bodies.rest, 30));
     EXPECT_LT((result.fitted - places).colwise().norm().maxCoeff(), 13 * bodies.Edge()) << seed;
   }
 }

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <set>
 #include <string>
 #include <utility>
@@ -20,6 +19,7 @@
 
 #include "bodies/measure.h"
 #include "support/message_of.h"
+#include "support/part_of.h"
 #include "support/paths.h"
 #include "support/threads.h"
 
@@ -28,35 +28,16 @@
 namespace shapespace::internal {
 namespace {
 
-struct Part {
-  std::shared_ptr<const Connectivity> connectivity;
-  Shape shape;
-  std::vector<int> vertices;  // per vertex, its number in the body of which it is a part
-};
+using testing::Part;
 
-// The triangles of a body all of whose corners are kept, in `shape`.
+// The triangles of a body all of whose corners are kept where it stands, in `shape`.
 template <typename Keep>
 Part PartOf(const SkinnedBody& body, const Shape& shape, const Keep& keep) {
   const Shape rest = body.pose("stand");
-  std::vector<int> index(rest.cols(), -1);
-  Part part;
-  std::vector<int> triangles;
-  for (int f = 0; f < body.connectivity->NumTriangles(); ++f) {
+  return testing::PartOf(*body.connectivity, shape, [&](int f) {
     const auto t = body.connectivity->Triangles().col(f);
-    if (!keep(rest.col(t(0))) || !keep(rest.col(t(1))) || !keep(rest.col(t(2)))) continue;
-    triangles.push_back(f);
-    for (const int v : t) index[v] = 0;
-  }
-  for (int v = 0; v < rest.cols(); ++v) {
-    if (index[v] < 0) continue;
-    index[v] = static_cast<int>(part.vertices.size());
-    part.vertices.push_back(v);
-  }
-  const Eigen::Matrix3Xi chosen = body.connectivity->Triangles()(Eigen::all, triangles);
-  part.connectivity = Connectivity::FromTriangles(
-      static_cast<int>(part.vertices.size()), chosen.unaryExpr([&](int v) { return index[v]; }));
-  part.shape = shape(Eigen::all, part.vertices);
-  return part;
+    return keep(rest.col(t(0))) && keep(rest.col(t(1))) && keep(rest.col(t(2)));
+  });
 }
 
 // An animal that stands, and another mesh of it in a pose, without the hind legs, the tail, and

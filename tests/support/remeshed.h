@@ -9,6 +9,24 @@
 
 namespace shapespace::testing {
 
+/// Markers far from each other on `shape`. Those of the target are the vertices of `on_target`
+/// nearest to the `places` of the same vertices.
+inline std::vector<CorrespondenceMarker> SpreadMarkers(const Shape& shape, const Shape& places,
+                                                       const Shape& on_target, int count) {
+  std::vector<CorrespondenceMarker> markers;
+  Eigen::RowVectorXd distance = (shape.colwise() - shape.rowwise().mean()).colwise().squaredNorm();
+  for (int k = 0; k < count; ++k) {
+    Eigen::Index from = 0, to = 0;
+    distance.maxCoeff(&from);
+    distance = distance.cwiseMin(
+        Eigen::RowVectorXd((shape.colwise() - shape.col(from)).colwise().squaredNorm()));
+    if (k == 0) distance = (shape.colwise() - shape.col(from)).colwise().squaredNorm();
+    (on_target.colwise() - places.col(from)).colwise().squaredNorm().minCoeff(&to);
+    markers.push_back({static_cast<int>(from), static_cast<int>(to)});
+  }
+  return markers;
+}
+
 /// One animal as two meshes of different, unrelated connectivity: the template stands, the target
 /// is in a pose.
 struct Remeshed {
@@ -25,17 +43,7 @@ struct Remeshed {
         rest(first.pose("stand")),
         other_rest(second.pose("stand")),
         target(MakeQuadruped(second_triangles, form).pose(pose)) {
-    // Markers far from each other; the target's are the nearest vertices.
-    Eigen::RowVectorXd distance = (rest.colwise() - rest.rowwise().mean()).colwise().squaredNorm();
-    for (int k = 0; k < num_markers; ++k) {
-      Eigen::Index from = 0, to = 0;
-      distance.maxCoeff(&from);
-      distance = distance.cwiseMin(
-          Eigen::RowVectorXd((rest.colwise() - rest.col(from)).colwise().squaredNorm()));
-      if (k == 0) distance = (rest.colwise() - rest.col(from)).colwise().squaredNorm();
-      (other_rest.colwise() - rest.col(from)).colwise().squaredNorm().minCoeff(&to);
-      markers.push_back({static_cast<int>(from), static_cast<int>(to)});
-    }
+    markers = SpreadMarkers(rest, rest, other_rest, num_markers);
   }
 
   CorrespondenceResult Fit(const CorrespondenceOptions& options = {}) const {
