@@ -5,6 +5,7 @@ from bpy.props import EnumProperty
 from mathutils import Vector
 
 from . import handles, vertex_groups
+from .guarded import Guarded
 from .poses import pose_of_target
 from .problem import Problem
 
@@ -12,27 +13,7 @@ from .problem import Problem
 _EMPTY = 0.08
 
 
-class _OnHandles:
-    bl_options = {"REGISTER", "UNDO"}
-
-    @classmethod
-    def poll(cls, context):
-        try:
-            cls.require(context)
-        except Problem as problem:
-            cls.poll_message_set(str(problem))
-            return False
-        return True
-
-    def execute(self, context):
-        try:
-            return self.change(context, handles.mesh_of(context))
-        except Problem as problem:
-            self.report({"ERROR"}, str(problem))
-            return {"CANCELLED"}
-
-
-class SHAPESPACE_OT_handle_add(_OnHandles, bpy.types.Operator):
+class SHAPESPACE_OT_handle_add(Guarded, bpy.types.Operator):
     """Make the active vertex group a handle of the mesh"""
 
     bl_idname = "shapespace.handle_add"
@@ -47,8 +28,8 @@ class SHAPESPACE_OT_handle_add(_OnHandles, bpy.types.Operator):
         ],
     )
 
-    @classmethod
-    def require(cls, context):
+    @staticmethod
+    def require(context) -> None:
         item = handles.mesh_of(context)
         if item.vertex_groups.active is None:
             raise Problem(
@@ -56,7 +37,8 @@ class SHAPESPACE_OT_handle_add(_OnHandles, bpy.types.Operator):
                 " of the properties"
             )
 
-    def change(self, context, item):
+    def change(self, context):
+        item = handles.mesh_of(context)
         name = item.vertex_groups.active.name
         held = vertex_groups.members(item, name, item.data.vertices, "would be the handle")
         poses = pose_of_target(context, item)  # before anything is changed, since it may be refused
@@ -66,40 +48,39 @@ class SHAPESPACE_OT_handle_add(_OnHandles, bpy.types.Operator):
         if self.moves == "EMPTY":
             handle.moves = "TARGET"
             handle.target = _add_empty(context, item, name, poses, held)
-        return {"FINISHED"}
 
 
-class SHAPESPACE_OT_handle_remove(_OnHandles, bpy.types.Operator):
+class SHAPESPACE_OT_handle_remove(Guarded, bpy.types.Operator):
     """Remove the active handle of the mesh. Its vertex group and its target stay"""
 
     bl_idname = "shapespace.handle_remove"
     bl_label = "Remove Handle"
 
-    @classmethod
-    def require(cls, context):
+    @staticmethod
+    def require(context) -> None:
         handles.require_some(handles.mesh_of(context))
 
-    def change(self, _context, item):
+    def change(self, context):
+        item = handles.mesh_of(context)
         active = getattr(item, handles.ACTIVE)
         handles.of(item).remove(active)
         setattr(item, handles.ACTIVE, max(0, min(active, len(handles.of(item)) - 1)))
-        return {"FINISHED"}
 
 
-class SHAPESPACE_OT_handles_set_rest(_OnHandles, bpy.types.Operator):
+class SHAPESPACE_OT_handles_set_rest(Guarded, bpy.types.Operator):
     """Make the present places of all targets those from which they move the mesh at rest"""
 
     bl_idname = "shapespace.handles_set_rest"
     bl_label = "Set Rest"
 
-    @classmethod
-    def require(cls, context):
+    @staticmethod
+    def require(context) -> None:
         handles.require_some(handles.mesh_of(context))
 
-    def change(self, context, item):
+    def change(self, context):
+        item = handles.mesh_of(context)
         for handle in handles.of(item):
             handle.set_rest(context)
-        return {"FINISHED"}
 
 
 def _add_empty(context, item, name: str, poses, held):
