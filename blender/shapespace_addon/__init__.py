@@ -5,6 +5,7 @@ import bpy
 from . import (
     handle_operators,
     handles,
+    marker_operators,
     menus,
     operators,
     panel,
@@ -33,6 +34,7 @@ _CLASSES = (
     report.SHAPESPACE_report,
     preferences.SHAPESPACE_preferences,
     *handle_operators.CLASSES,
+    *marker_operators.CLASSES,
     *running.CLASSES,
     *operators.CLASSES,
     *panel.CLASSES,

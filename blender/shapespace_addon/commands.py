@@ -17,6 +17,7 @@ SOURCE = "source.path"  # the motion that is transferred
 
 _STIFFNESS = "stiffness.txt"
 _HANDLES = "handles.json"
+_MARKERS = "markers.txt"
 _FITTED = "fitted.ply"
 _SKINNED = "skinned.glb"
 
@@ -34,7 +35,7 @@ def commands(task, poses: list, targets: list, programs: dict, folder: str) -> l
     """What is to be run in a folder, in which the poses and targets are in files of these names.
     Raises a Problem if a tool is not there."""
     if isinstance(task, Fit):
-        return [_fit(task, poses, targets, programs)]
+        return [_fit(task, poses, targets, programs, folder)]
     if isinstance(task, Skinning):
         return [_skin(task, poses, programs)]
     metric = _metric_flags(task.metric, folder)
@@ -106,9 +107,13 @@ def _repair(task: Repair, poses: list, programs: dict) -> list:
     return [program, distorted, "--repair", sound, *flags, *_tolerance_flags(task), *_results(0)]
 
 
-def _fit(task: Fit, poses: list, targets: list, programs: dict) -> list:
+def _fit(task: Fit, poses: list, targets: list, programs: dict, folder: str) -> list:
     program = _optional("shape-correspond", programs)
     flags = ["--output", _FITTED, "--report", REPORT]
+    if task.markers:
+        with open(os.path.join(folder, _MARKERS), "w") as out:
+            out.writelines(f"{first + 1} {second + 1}\n" for first, second in task.markers)
+        flags += ["--markers", _MARKERS]
     return [program, *poses, *targets, *_seam_flags(task.open_seams), *flags]
 
 

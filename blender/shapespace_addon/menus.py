@@ -15,6 +15,7 @@ _OPERATORS = (
     ("shapespace.deform_live", "PLAY"),
     ("shapespace.repair", "TOOL_SETTINGS"),
 )
+_MARKER = ("shapespace.marker_add", "MARKER_HLT")
 
 
 class SHAPESPACE_MT_operators(bpy.types.Menu):
@@ -39,14 +40,22 @@ def _draw_in_view(menu, _context) -> None:
     menu.layout.menu(SHAPESPACE_MT_operators.bl_idname)
 
 
+def _draw_in_vertices(menu, context) -> None:
+    """In the menu Vertex of the 3D view, which is there in Edit Mode."""
+    menu.layout.separator()
+    buttons.draw(menu.layout, context, *_MARKER)
+
+
 def add() -> None:
     bpy.types.MESH_MT_shape_key_context_menu.append(_draw_in_keys)
     bpy.types.VIEW3D_MT_object.append(_draw_in_view)
+    bpy.types.VIEW3D_MT_edit_mesh_vertices.append(_draw_in_vertices)
 
 
 def remove() -> None:
     bpy.types.MESH_MT_shape_key_context_menu.remove(_draw_in_keys)
     bpy.types.VIEW3D_MT_object.remove(_draw_in_view)
+    bpy.types.VIEW3D_MT_edit_mesh_vertices.remove(_draw_in_vertices)
 
 
 CLASSES = (SHAPESPACE_MT_operators,)

@@ -174,7 +174,14 @@ class ModuleRun:
         for mesh in meshes:
             self._notes += mesh.warnings
         template, target = meshes
-        found = module.correspond(template[0], template, target[0], target, progress=self._hear)
+        found = module.correspond(
+            template[0],
+            template,
+            target[0],
+            target,
+            markers=task.markers or None,
+            progress=self._hear,
+        )
         self._note_end(found.summary)
         self._motions.append(found.fitted[np.newaxis])
 

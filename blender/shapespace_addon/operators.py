@@ -178,7 +178,8 @@ class SHAPESPACE_OT_transfer(_Run, MotionSettings, TransferSettings, bpy.types.O
 
 class SHAPESPACE_OT_fit(_Run, SurfaceSettings, bpy.types.Operator):
     """Add an object with the faces of the active mesh and the shape of the other selected one, whose
-    faces may be any others. In-betweens and Transfer then take both"""
+    faces may be any others. In-betweens and Transfer then take both. Markers that both have say what
+    belongs together"""
 
     bl_idname = "shapespace.fit"
     bl_label = "Fit To"

@@ -49,10 +49,10 @@ _BUTTONS = (  # side by side, as far as their names fit
         ("shapespace.extrapolate", "TRACKING_FORWARDS_SINGLE"),
         ("shapespace.transfer", "MOD_DATA_TRANSFER"),
     ),
-    (("shapespace.fit", "MOD_SHRINKWRAP"), ("shapespace.average", "MOD_SMOOTH")),
+    (("shapespace.fit", "MOD_SHRINKWRAP"), ("shapespace.marker_add", "MARKER_HLT")),
+    (("shapespace.average", "MOD_SMOOTH"), ("shapespace.bones", "ARMATURE_DATA")),
     (("shapespace.deform", "MOD_SIMPLEDEFORM"), ("shapespace.repair", "TOOL_SETTINGS")),
     (("shapespace.deform_live", "PLAY"),),
-    (("shapespace.bones", "ARMATURE_DATA"),),
 )
 
 

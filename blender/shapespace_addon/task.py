@@ -96,6 +96,7 @@ class Fit:
 
     poses: Body  # the template, one shape
     targets: list  # the body, of one shape
+    markers: list = field(default_factory=list)  # pairs of a vertex of each that belong together
     open_seams: bool = False
 
 

@@ -5,7 +5,7 @@ import numpy as np
 from .problem import Problem
 
 # Vertices of at least this weight belong to a set.
-_LEAST = 0.5
+LEAST = 0.5
 
 
 def weights(item, name: str, vertices, use: str) -> np.ndarray:
@@ -25,10 +25,10 @@ def weights(item, name: str, vertices, use: str) -> np.ndarray:
 
 def members(item, name: str, vertices, use: str) -> np.ndarray:
     """The numbers of the vertices of a group. Raises a Problem if there are none."""
-    found = np.flatnonzero(weights(item, name, vertices, use) >= _LEAST)
+    found = np.flatnonzero(weights(item, name, vertices, use) >= LEAST)
     if not len(found):
         raise Problem(
-            f"No vertex of '{item.name}' has a weight of {_LEAST} or more in the vertex group"
+            f"No vertex of '{item.name}' has a weight of {LEAST} or more in the vertex group"
             f" '{name}', which {use}: assign vertices to it, or choose another"
         )
     return found

@@ -9,7 +9,7 @@ import time
 import bpy
 from mathutils import Matrix
 
-from . import engine, mesh_cache, record, shape_keys, vertex_groups
+from . import engine, markers, mesh_cache, record, shape_keys, vertex_groups
 from .metric import metric_of, tolerance_of
 from .moving import range_of
 from .poses import (
@@ -381,9 +381,22 @@ class FitOnto(Work):
     def _check_places(self, _context) -> None:
         pass  # a new object can always be added
 
-    def _task(self, _context) -> Fit:
+    def poll(self) -> bool:
+        try:
+            return super().poll()
+        except Problem as problem:
+            raise Problem(markers.with_names(str(problem), self._markers)) from None
+
+    def finish(self, context) -> list:
+        return [markers.with_names(note, self._markers) for note in super().finish(context)]
+
+    def _task(self, context) -> Fit:
         template, target = self._bodies
-        return Fit(body_of(template), [body_of(target)], self._settings.open_seams)
+        pairs, self._notes = markers.pairs_of(context, *self._items())
+        self._markers = list(pairs)
+        return Fit(
+            body_of(template), [body_of(target)], list(pairs.values()), self._settings.open_seams
+        )
 
     def _place(self, context, i: int, motion) -> list:
         """The template is selected too, so that In-betweens can be pressed."""
@@ -398,7 +411,14 @@ class FitOnto(Work):
 
         notes = _add_copy(context, template, body, f"{template.name} as {target.name}", fill)
         template.select_set(True)
-        return notes
+        if self.report["warnings"]:
+            notes.append(
+                f"Look whether each part of '{context.active_object.name}' is where it belongs. If"
+                f" one is not, select a vertex of it in '{template.name}' and the one to which it"
+                f" belongs in '{target.name}', both in Edit Mode, press Add Marker, and press Fit To"
+                " again"
+            )
+        return self._notes + notes
 
 
 def template_and_target_objects(context) -> list:

@@ -174,7 +174,13 @@ def steps(folder):
     yield from until(lambda: drawn)
     press("ESC")
     yield
-    for menu in (bpy.types.MESH_MT_shape_key_context_menu, bpy.types.VIEW3D_MT_object):
+    for menu, mode in (
+        (bpy.types.MESH_MT_shape_key_context_menu, "OBJECT"),
+        (bpy.types.VIEW3D_MT_edit_mesh_vertices, "EDIT"),
+        (bpy.types.VIEW3D_MT_object, "OBJECT"),
+    ):
+        with view():
+            bpy.ops.object.mode_set(mode=mode)
         ends = []
 
         def end(*_):

@@ -13,26 +13,32 @@ FOLDER = PROJECT / "blender" / ADDON
 
 class Addon(unittest.TestCase):
     def test_is_gone_after_it_is_disabled_and_there_again(self):
-        operators = {"inbetweens", "extrapolate", "transfer", "deform", "deform_live", "repair"}
+        operators = {
+            "inbetweens", "extrapolate", "transfer", "deform", "deform_live", "repair", "marker_add"
+        }  # fmt: skip
         for _ in range(2):
             self.assertLessEqual(operators, set(dir(bpy.ops.shapespace)))
             self.assertTrue(hasattr(bpy.context.scene, "shapespace"))
             self.assertTrue(hasattr(bpy.types, "SHAPESPACE_PT_panel"))
             self.assertTrue(hasattr(bpy.types.Object, "shapespace_handles"))
-            self.assertEqual([len(menu) for menu in self.menus()], [1, 1])
+            self.assertEqual([len(menu) for menu in self.menus()], [1, 1, 1])
             bpy.ops.preferences.addon_disable(module=ADDON)
             self.assertEqual(set(dir(bpy.ops.shapespace)) & operators, set())
             self.assertFalse(hasattr(bpy.context.scene, "shapespace"))
             self.assertFalse(hasattr(bpy.types, "SHAPESPACE_PT_panel"))
             self.assertFalse(hasattr(bpy.types.Object, "shapespace_handles"))
-            self.assertEqual([len(menu) for menu in self.menus()], [0, 0])
+            self.assertEqual([len(menu) for menu in self.menus()], [0, 0, 0])
             bpy.ops.preferences.addon_enable(module=ADDON)
 
     def menus(self):
         """What the add-on has appended to each of Blender's menus that it appends to."""
         return [
             [draw for draw in menu.draw._draw_funcs if "shapespace" in draw.__module__]
-            for menu in (bpy.types.MESH_MT_shape_key_context_menu, bpy.types.VIEW3D_MT_object)
+            for menu in (
+                bpy.types.MESH_MT_shape_key_context_menu,
+                bpy.types.VIEW3D_MT_object,
+                bpy.types.VIEW3D_MT_edit_mesh_vertices,
+            )
         ]
 
     def test_nothing_is_computed_where_settings_are_changed_afterwards(self):
@@ -84,7 +90,7 @@ class Manifest(unittest.TestCase):
 
     def test_blenders_own_modules_are_all_that_is_imported(self):
         """Beside the standard library and numpy; the module is optional."""
-        allowed = {"bpy", "mathutils", "numpy", "shapespace"}
+        allowed = {"bmesh", "bpy", "mathutils", "numpy", "shapespace"}
         standard = {
             "contextlib", "dataclasses", "json", "math", "os", "re", "secrets", "shutil", "struct",
             "subprocess", "tempfile", "threading", "time", "types",

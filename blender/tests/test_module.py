@@ -164,15 +164,19 @@ class Module(Case):
         (stand,), faces = self.quadruped("stand")
         (stride,), others = self.quadruped("stride", triangles=2500)
         target, template = add_object("target", stride, others), add_object("template", stand, faces)
-        found = []
-        for engine in ("TOOLS", "MODULE"):
-            preferences().engine = engine
-            select(target, template)
-            bpy.ops.shapespace.fit()
-            fitted = bpy.data.objects["template as target"]
-            found.append([tuple(vertex.co) for vertex in fitted.data.vertices])
-            bpy.data.objects.remove(fitted)
-        self.near(*found, 1e-4)
+        for marked in (False, True):
+            if marked:
+                for item, shape in ((target, stride), (template, stand)):
+                    assign(item, "fit marker", np.arange(len(shape)) == shape[:, 2].argmin())
+            found = []
+            for engine in ("TOOLS", "MODULE"):
+                preferences().engine = engine
+                select(target, template)
+                bpy.ops.shapespace.fit()
+                fitted = bpy.data.objects["template as target"]
+                found.append([tuple(vertex.co) for vertex in fitted.data.vertices])
+                bpy.data.objects.remove(fitted)
+            self.near(*found, 1e-4)
 
     def test_its_errors_are_reports(self):
         cube = add_object("cube", CUBE, CUBE_FACES)

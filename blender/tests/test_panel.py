@@ -3,7 +3,7 @@
 from types import SimpleNamespace
 
 import bpy
-from shapespace_addon import operators, panel
+from shapespace_addon import marker_operators, operators, panel
 from support import Case
 
 
@@ -60,9 +60,8 @@ class Panel(Case):
     def test_the_open_part_has_a_button_for_each_operator_and_nothing_else(self):
         drawn = draw(panel.SHAPESPACE_PT_panel)
         self.assertEqual({how for how, _ in drawn}, {"operator"})
-        self.assertCountEqual(
-            names(drawn, "operator"), [kind.bl_idname for kind in operators.CLASSES]
-        )
+        kinds = [*operators.CLASSES, *marker_operators.CLASSES]
+        self.assertCountEqual(names(drawn, "operator"), [kind.bl_idname for kind in kinds])
         self.assertEqual(drawn[0], ("operator", "shapespace.inbetweens"))
 
     def test_all_other_parts_are_folded_at_first(self):
