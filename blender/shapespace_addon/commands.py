@@ -114,6 +114,8 @@ def _fit(task: Fit, poses: list, targets: list, programs: dict, folder: str) -> 
         with open(os.path.join(folder, _MARKERS), "w") as out:
             out.writelines(f"{first + 1} {second + 1}\n" for first, second in task.markers)
         flags += ["--markers", _MARKERS]
+    if task.finds_markers:
+        flags.append("--find_markers")
     return [program, *poses, *targets, *_seam_flags(task.open_seams), *flags]
 
 

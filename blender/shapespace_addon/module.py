@@ -180,6 +180,7 @@ class ModuleRun:
             target[0],
             target,
             markers=task.markers or None,
+            find_markers=task.finds_markers,
             progress=self._hear,
         )
         self._note_end(found.summary)

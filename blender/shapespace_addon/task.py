@@ -99,6 +99,11 @@ class Fit:
     markers: list = field(default_factory=list)  # pairs of a vertex of each that belong together
     open_seams: bool = False
 
+    @property
+    def finds_markers(self) -> bool:
+        """Whether others are found beside them: a few decide between maps, and do not make one."""
+        return len(self.markers) <= 10
+
 
 @dataclass
 class Skinning:

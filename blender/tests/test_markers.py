@@ -229,6 +229,20 @@ class FitByMarkers(Case):
             self.near(places[foot], goal)
             self.near(places[beside], goal_beside, 0.3)
 
+    def test_further_ones_are_found_beside_a_few(self):
+        template, target = self.tables()
+        foot, beside = (self.vertex_at(template, place) for place in ((0, 0, 0), (3, 0, 0)))
+        for place in ((0, 0, 0), (0, 0, 0.25), (0.25, 0, 0)):
+            goal = (3 - place[0], 2, 1.5 * place[2])
+            mark(
+                template, self.vertex_at(template, place), target, self.vertex_at(target, goal)
+            )
+        select(target, template)
+        bpy.ops.shapespace.fit()
+        places = seen(bpy.context.active_object, 1)
+        self.near(places[foot], (3, 2, 0), 0.3)
+        self.near(places[beside], (0, 2, 0), 0.3)
+
     def test_where_there_is_doubt_it_is_said_how_to_decide(self):
         template, target = self.tables()
         select(target, template)

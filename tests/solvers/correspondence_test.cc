@@ -18,8 +18,10 @@
 #include <shapespace/bodies/sheet.h>
 #include <shapespace/correspondence/correspondence_picture.h>
 #include <shapespace/correspondence/detail/closest.h>
+#include <shapespace/correspondence/detail/limb_turns.h>
 #include <shapespace/correspondence/detail/marker_check.h>
 #include <shapespace/deformation/deformation.h>
+#include <shapespace/mesh/internal/geometry.h>
 #include <shapespace/mesh/surface.h>
 #include <shapespace/transfer/transfer.h>
 
@@ -341,11 +343,11 @@ struct AnyMatch {
   }
 
   std::vector<internal::PointToPlaneTerm> Terms(const Shape& shape, const Shape& target_shape,
-                                                int stride, double weight) const {
+                                                int samples, double weight) const {
     const internal::Target target(level.connectivity, target_shape, distances);
     double distance = 0;
     return internal::FindTerms(level, shape, internal::VertexAreas(*level.connectivity, shape),
-                               target, stride, weight, &distance);
+                               target, SampleTarget(target, samples), weight, &distance);
   }
 
   internal::Level level;
@@ -357,14 +359,14 @@ TEST(FindTerms, TheTargetsVerticesPullAsStronglyAsTheTemplates) {
   const ShapeFamily bar = MakeBar(2, 1, 1, 8, 4, 4);
   const Shape target = bar.pose(0) / std::sqrt(10);
   const AnyMatch match(bar.connectivity);
-  for (const int stride : {1, 2, 5}) {
+  for (const int samples : {1000, 100, 40}) {
     double templates = 0, targets = 0;
-    for (const auto& term : match.Terms(1.01 * target, target, stride, 0.7)) {
+    for (const auto& term : match.Terms(1.01 * target, target, samples, 0.7)) {
       const bool is_vertex = term.vertices(0) == term.vertices(1);
       (is_vertex ? templates : targets) += term.weight;
     }
-    EXPECT_NEAR(templates, 0.7, 1e-12) << stride;
-    EXPECT_NEAR(targets, 0.7, 1e-12) << stride;
+    EXPECT_NEAR(templates, 0.7, 1e-12) << samples;
+    EXPECT_NEAR(targets, 0.7, 1e-12) << samples;
   }
 }
 
@@ -379,10 +381,87 @@ TEST(FindTerms, WhatIsNearestToTheBorderIsNotPulled) {
   const Shape larger = (1.02 * square).colwise() + Eigen::Vector3d(0, 0, 0.01);
   std::vector<int> pulled;
   for (const auto& term :
-       AnyMatch(Connectivity::FromTriangles(9, triangles)).Terms(larger, square, 1, 1)) {
+       AnyMatch(Connectivity::FromTriangles(9, triangles)).Terms(larger, square, 9, 1)) {
     if (term.vertices(0) == term.vertices(1)) pulled.push_back(term.vertices(0));
   }
   EXPECT_EQ(pulled, std::vector<int>{4});
+}
+
+// Two meshes of an animal with long legs, of area 1, of which the first is to be fitted to the
+// other. A front leg ends in a hand, which is flat and wider in front than behind, and is turned by
+// half a turn.
+struct TurnedHand {
+  TurnedHand()
+      : body(MakeQuadruped(6000, NamedQuadrupedForm("long"))),
+        other(MakeQuadruped(8000, NamedQuadrupedForm("long"))) {
+    const Shape standing = body.pose("stand");
+    double area = 0;
+    for (const auto& triangle : body.connectivity->Triangles().colwise()) {
+      area += internal::TriangleArea(standing, triangle);
+    }
+    rest = WithHand(standing / std::sqrt(area));
+    target = WithHand(other.pose("stand") / std::sqrt(area));
+    turned = rest;
+    for (auto point : turned.colwise()) {
+      if (!IsLeg(point)) continue;
+      const double twist = std::min(1., (kTop - point(1)) / 0.22);
+      point =
+          Axis() + Eigen::AngleAxisd(EIGEN_PI * twist, Eigen::Vector3d::UnitY()) * (point - Axis());
+    }
+  }
+
+  static constexpr double kTop = 0.37, kWrist = 0.15;
+  static Eigen::Vector3d Axis() { return {0.07, 0, 0.2}; }
+  static bool IsLeg(const Eigen::Vector3d& point) {
+    return point(0) > 0 && point(2) > 0.1 && point(1) < kTop;
+  }
+  static Shape WithHand(Shape shape) {
+    for (auto point : shape.colwise()) {
+      if (!IsLeg(point)) continue;
+      const double hand = std::min(1., std::max(0., (kWrist - point(1)) / 0.04));
+      const double wider = point(2) > Axis()(2) ? 0.6 : 0.2;
+      point(0) -= hand * 0.6 * (point(0) - Axis()(0));
+      point(2) += hand * wider * (point(2) - Axis()(2));
+    }
+    return shape;
+  }
+
+  // How many limbs are turned, with these vertices held.
+  int Turn(const std::vector<int>& held, Shape* shape) const {
+    const AnyMatch match(body.connectivity);
+    const internal::MarkerDistances distances(match.distances.OnTemplate(),
+                                              Eigen::MatrixXf::Zero(target.cols(), 1));
+    return TurnLimbs(match.level, rest, held, {other.connectivity, target, distances}, {}, nullptr,
+                     shape);
+  }
+
+  SkinnedBody body, other;
+  Shape rest, target, turned;
+};
+
+TEST(TurnLimbs, TurnsAHand) {
+  const TurnedHand hand;
+  Shape shape = hand.turned;
+  EXPECT_EQ(hand.Turn({}, &shape), 1);
+  EXPECT_GT((hand.turned - hand.rest).colwise().norm().maxCoeff(), 0.1);
+  EXPECT_LT((shape - hand.rest).colwise().norm().maxCoeff(), 0.02);
+}
+
+TEST(TurnLimbs, LeavesWhatIsRight) {
+  const TurnedHand hand;
+  Shape shape = hand.rest;
+  EXPECT_EQ(hand.Turn({}, &shape), 0);
+  EXPECT_EQ(shape, hand.rest);
+}
+
+// A person who holds a vertex where it is wants it there.
+TEST(TurnLimbs, DoesNotMoveWhatIsHeld) {
+  const TurnedHand hand;
+  Eigen::Index front = 0;
+  (hand.turned - hand.rest).colwise().norm().maxCoeff(&front);
+  Shape shape = hand.turned;
+  hand.Turn({static_cast<int>(front)}, &shape);
+  EXPECT_EQ(shape.col(front), hand.turned.col(front));
 }
 
 // Markers on the vertices of a square grid, whose distances are those in the plane: what is found

@@ -66,12 +66,12 @@ struct CorrespondenceSummary {
   /// Rounds of closest-point fitting on one level.
   struct Stage {
     int vertices = 0;
-    std::string name;  ///< "gradients" (Sumner and Popovic's method) or "shell" (strain and
-                       ///< bending)
+    std::string name;  ///< "gradients" (Sumner and Popovic's method), "shell" (strain and bending)
+                       ///< or "turns" (of limbs)
     double weight = kNotComputed;  ///< of the closest-point terms
-    int rounds = 0;
+    int rounds = 0;                ///< of "turns": how many limbs were turned
     /// Root mean square distance from the target before the last round, over the vertices that are
-    /// near it. NaN for "gradients".
+    /// near it. NaN for the others than "shell".
     double distance = kNotComputed;
     /// Root mean square distance of the vertices from the solution of the last round, as a share of
     /// the square root of the template's area. The round may have moved them only part of the way.

@@ -10,31 +10,33 @@
 
 namespace shapespace::internal {
 
-/// Whole components of a mesh as a mesh of their own.
+/// Some triangles of a mesh as a mesh of their own.
 struct Submesh {
   std::shared_ptr<const Connectivity> connectivity;
   std::vector<int> vertices;  ///< for each of its vertices the one of the mesh, ascending
   std::vector<int> index;     ///< for each vertex of the mesh its own one, or -1
 };
 
-/// The components whose vertices are kept.
+/// The triangles of which all corners are kept.
 inline Submesh MakeSubmesh(const Connectivity& mesh, const std::vector<bool>& keep) {
   Submesh part;
   part.index.assign(mesh.NumVertices(), -1);
+  std::vector<int> triangles;
+  for (int f = 0; f < mesh.NumTriangles(); ++f) {
+    const auto triangle = mesh.Triangles().col(f);
+    if (!keep[triangle(0)] || !keep[triangle(1)] || !keep[triangle(2)]) continue;
+    triangles.push_back(f);
+    for (const int v : triangle) part.index[v] = 0;
+  }
   for (int v = 0; v < mesh.NumVertices(); ++v) {
-    if (!keep[v]) continue;
+    if (part.index[v] < 0) continue;
     part.index[v] = static_cast<int>(part.vertices.size());
     part.vertices.push_back(v);
   }
-  Eigen::Matrix3Xi triangles(3, mesh.NumTriangles());
-  int count = 0;
-  for (const auto& triangle : mesh.Triangles().colwise()) {
-    if (!keep[triangle(0)]) continue;
-    for (int k = 0; k < 3; ++k) triangles(k, count) = part.index[triangle(k)];
-    ++count;
-  }
-  part.connectivity = Connectivity::FromTriangles(static_cast<int>(part.vertices.size()),
-                                                  triangles.leftCols(count));
+  const Eigen::Matrix3Xi chosen = mesh.Triangles()(Eigen::all, triangles);
+  part.connectivity =
+      Connectivity::FromTriangles(static_cast<int>(part.vertices.size()),
+                                  chosen.unaryExpr([&](int v) { return part.index[v]; }));
   return part;
 }
 

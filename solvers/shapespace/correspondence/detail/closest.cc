@@ -1,5 +1,6 @@
 #include <shapespace/correspondence/detail/closest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -112,9 +113,19 @@ ClosestPoint NearestOnTemplate(const MeshSurface& fitted, const Level& level, co
       kFar);
 }
 
+TargetSamples SampleTarget(const Target& target, int count) {
+  const int num_vertices = target.GetConnectivity().NumVertices();
+  const int stride = std::max(1, num_vertices / count);
+  TargetSamples samples;
+  for (int y = 0; y < num_vertices; y += stride) samples.vertices.push_back(y);
+  samples.area = target.VertexAreas()(samples.vertices).sum();
+  return samples;
+}
+
 std::vector<PointToPlaneTerm> FindTerms(const Level& level, const Shape& shape,
                                         const Eigen::VectorXd& areas, const Target& target,
-                                        int stride, double weight, double* distance) {
+                                        const TargetSamples& samples, double weight,
+                                        double* distance) {
   const auto num_vertices = static_cast<int>(shape.cols());
   const Shape normals = VertexNormals(*level.connectivity, shape);
   std::vector<ClosestPoint> closest(num_vertices);
@@ -134,21 +145,20 @@ std::vector<PointToPlaneTerm> FindTerms(const Level& level, const Shape& shape,
   *distance = sum > 0 ? std::sqrt(squares / sum) : 0;
 
   const MeshSurface fitted(level.connectivity, shape);
-  const int num_others = (target.GetConnectivity().NumVertices() + stride - 1) / stride;
+  const auto num_others = static_cast<int>(samples.vertices.size());
   std::vector<ClosestPoint> others(num_others);
-  ParallelFor(num_others,
-              [&](int i) { others[i] = NearestOnTemplate(fitted, level, target, stride * i); });
-  double areas_of_others = 0;
-  for (int i = 0; i < num_others; ++i) areas_of_others += target.VertexAreas()(stride * i);
+  ParallelFor(num_others, [&](int i) {
+    others[i] = NearestOnTemplate(fitted, level, target, samples.vertices[i]);
+  });
   for (int i = 0; i < num_others; ++i) {
     if (others[i].triangle < 0 ||
         IsOnBorder(others[i], level.connectivity->Triangles(), level.border)) {
       continue;
     }
-    const int y = stride * i;
+    const int y = samples.vertices[i];
     terms.push_back({level.connectivity->Triangles().col(others[i].triangle), others[i].barycentric,
                      target.GetShape().col(y), target.GetVertexNormals().col(y),
-                     weight * target.VertexAreas()(y) / areas_of_others});
+                     weight * target.VertexAreas()(y) / samples.area});
   }
   return terms;
 }

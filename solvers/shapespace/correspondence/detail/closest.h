@@ -76,13 +76,23 @@ struct Level {
 ClosestPoint NearestOnTemplate(const MeshSurface& fitted, const Level& level, const Target& target,
                                int target_vertex);
 
+/// Vertices of the target whose nearest points on a template are sought.
+struct TargetSamples {
+  std::vector<int> vertices;
+  double area;  ///< of all samples, of which these may be a part
+};
+
+/// At least `count` vertices of the target, if it has so many, and fewer than twice as many.
+TargetSamples SampleTarget(const Target& target, int count);
+
 /// The closest-point terms between `shape`, which is of a level, and the target: from each of its
-/// vertices to the nearest point of the target, and from every `stride`-th vertex of the target to
-/// the nearest point of `shape`. Only points nearer than a twentieth of the square root of the area
-/// count. `distance` becomes the root mean square distance of the former.
+/// vertices to the nearest point of the target, and from samples of the target to the nearest point
+/// of `shape`. Only points nearer than a twentieth of the square root of the area count. `distance`
+/// becomes the root mean square distance of the former.
 std::vector<PointToPlaneTerm> FindTerms(const Level& level, const Shape& shape,
                                         const Eigen::VectorXd& areas, const Target& target,
-                                        int stride, double weight, double* distance);
+                                        const TargetSamples& samples, double weight,
+                                        double* distance);
 
 }  // namespace shapespace::internal
 

@@ -64,6 +64,11 @@ void ShellFit::SetWanted(const Shape& shape) {
   }
 }
 
+std::vector<PointToPlaneTerm> ShellFit::InOwnUnit(std::vector<PointToPlaneTerm> terms) const {
+  for (PointToPlaneTerm& term : terms) term.point /= metric_->unit;
+  return terms;
+}
+
 double ShellFit::TermEnergy(const std::vector<PointToPlaneTerm>& terms, const Shape& shape) const {
   double energy = 0;
   for (const PointToPlaneTerm& term : terms) {
@@ -94,11 +99,16 @@ void ShellFit::AddTerms(const std::vector<PointToPlaneTerm>& terms, const Shape&
   }
 }
 
+double ShellFit::Energy(const std::vector<PointToPlaneTerm>& terms, const Shape& user_shape) {
+  const Shape shape = user_shape / metric_->unit;
+  SetWanted(shape);
+  return (map_.Values(shape) - wanted_).squaredNorm() + TermEnergy(InOwnUnit(terms), shape);
+}
+
 double ShellFit::Step(const std::vector<PointToPlaneTerm>& user_terms, Shape* user_shape) {
   const double unit = metric_->unit;
   const Shape shape = *user_shape / unit;
-  std::vector<PointToPlaneTerm> terms = user_terms;
-  for (PointToPlaneTerm& term : terms) term.point /= unit;
+  const std::vector<PointToPlaneTerm> terms = InOwnUnit(user_terms);
 
   SetWanted(shape);
   const Eigen::VectorXd off = map_.Values(shape) - wanted_;

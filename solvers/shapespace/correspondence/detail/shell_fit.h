@@ -49,7 +49,12 @@ class ShellFit {
   /// shortened step is not mistaken for convergence.
   double Step(const std::vector<PointToPlaneTerm>& terms, Shape* shape);
 
+  /// The sum that a step decreases.
+  double Energy(const std::vector<PointToPlaneTerm>& terms, const Shape& shape);
+
  private:
+  // Terms of which the points are in the metric's unit.
+  std::vector<PointToPlaneTerm> InOwnUnit(std::vector<PointToPlaneTerm> terms) const;
   double TermEnergy(const std::vector<PointToPlaneTerm>& terms, const Shape& shape) const;
   // Adds them to the matrix and the gradient.
   void AddTerms(const std::vector<PointToPlaneTerm>& terms, const Shape& shape, Tangent* gradient);

@@ -5,6 +5,7 @@
 
 #include <shapespace/base/internal/stopwatch.h>
 #include <shapespace/correspondence/detail/gradient_fit.h>
+#include <shapespace/correspondence/detail/limb_turns.h>
 #include <shapespace/correspondence/detail/unfold.h>
 #include <shapespace/hierarchy/hierarchy.h>
 
@@ -56,6 +57,8 @@ Shape TemplateFit::operator()(const std::shared_ptr<const Connectivity>& connect
     const Level level = {hierarchy.LevelConnectivity(level_), hierarchy.Vertices(level_),
                          BorderOf(*hierarchy.LevelConnectivity(level_))};
     if (level_ == 0) FindPose(level, level_rest, &shape);
+    // On the first level hands are too coarse to tell their palms from their backs.
+    if (level_ == 1) FindTurns(level, level_rest, &shape);
     if (level_ + 1 == num_levels_) {
       Finish(level, level_rest, &shape);
     } else {
@@ -121,6 +124,17 @@ void TemplateFit::FindPose(const Level& level, const Shape& rest, Shape* shape) 
   }
 }
 
+void TemplateFit::FindTurns(const Level& level, const Shape& rest, Shape* shape) {
+  const Stopwatch stopwatch;
+  CorrespondenceSummary::Stage stage;
+  stage.vertices = static_cast<int>(shape->cols());
+  stage.name = "turns";
+  stage.weight = kLastWeight;
+  stage.rounds = TurnLimbs(level, rest, HeldOn(level), target_, options_, progress_, shape);
+  stage.seconds = stopwatch.Seconds();
+  summary_->stages.push_back(stage);
+}
+
 void TemplateFit::Finish(const Level& level, const Shape& rest, Shape* shape) {
   ShellFit fit = MakeFit(level, rest, options_.bending);
   is_last_ = true;
@@ -159,11 +173,11 @@ bool TemplateFit::Rounds(const Level& level, ShellFit* fit, double weight, int r
   stage.name = "shell";
   stage.weight = weight;
   // It is enough to use about as many of the target's vertices as the level has.
-  const int stride = std::max(1, target_.GetConnectivity().NumVertices() / (2 * stage.vertices));
+  const TargetSamples samples = SampleTarget(target_, 2 * stage.vertices);
   bool at_rest = false;
   while (!at_rest && stage.rounds < rounds && !Stops()) {
     std::vector<PointToPlaneTerm> terms =
-        FindTerms(level, *shape, fit->VertexAreas(), target_, stride, weight, &stage.distance);
+        FindTerms(level, *shape, fit->VertexAreas(), target_, samples, weight, &stage.distance);
     if (weight < kLastWeight) AddSprings(level, &terms);
     stage.motion = fit->Step(terms, shape);
     ++stage.rounds;

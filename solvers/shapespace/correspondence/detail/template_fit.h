@@ -43,6 +43,7 @@ class TemplateFit {
   std::vector<int> HeldOn(const Level& level) const;
   bool Stops();
   void FindPose(const Level& level, const Shape& rest, Shape* shape);
+  void FindTurns(const Level& level, const Shape& rest, Shape* shape);
   void Finish(const Level& level, const Shape& rest, Shape* shape);
   ShellFit MakeFit(const Level& level, const Shape& rest, double bending) const;
   void AddSprings(const Level& level, std::vector<PointToPlaneTerm>* terms) const;
