@@ -11,10 +11,7 @@
 #include <shapespace/base/internal/task_group.h>
 #include <shapespace/base/parallel.h>
 #include <shapespace/correspondence/detail/shell_fit.h>
-#include <shapespace/matching/detail/extremities.h>
-#include <shapespace/matching/detail/farthest_points.h>
-#include <shapespace/matching/detail/surface_graph.h>
-#include <shapespace/matching/detail/working_surface.h>
+#include <shapespace/matching/internal/matching.h>
 #include <shapespace/mesh/internal/submesh.h>
 
 namespace shapespace::internal {
@@ -27,6 +24,8 @@ namespace {
 constexpr double kTurned = 0.17, kTwisted = 0.45, kMoved = 0.48, kLimb = 0.55;
 // What has more of the body's area is no limb: of people, the head with the shoulders.
 constexpr double kLargest = 0.2;
+// So many held vertices of a limb say how it is turned, and no time is spent on it.
+constexpr int kEnoughHeld = 3;
 // Of the fit of a limb: first with the former weight of closest points, then with the latter, which
 // hardly lets it slide. It need not come to rest.
 constexpr double kLooseWeight = 100, kTightWeight = 1000;
@@ -38,8 +37,6 @@ constexpr double kHopeless = 4;
 // had been wrong by half a turn had .80 to .95, others .97 and more.
 constexpr double kBetter = 0.95;
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
-// Samples from which extremities are found.
-constexpr int kSamples = 200;
 
 // The middle of a limb, as a function of the distance from its end.
 class Axis {
@@ -76,19 +73,6 @@ class Axis {
   Eigen::Matrix<double, 3, kPoints> points_;
 };
 
-// The vertices at the ends of the limbs of the largest component.
-std::vector<int> EndsOfLimbs(const Connectivity& connectivity, const Shape& rest) {
-  const WorkingSurface surface = MakeWorkingSurface("template", connectivity, rest, nullptr);
-  const SurfaceGraph graph(*surface.connectivity, surface.shape);
-  const Eigen::VectorXd areas = VertexAreas(*surface.connectivity, surface.shape);
-  const EvenSamples even = SampleEvenly(graph, surface.shape, areas, kSamples);
-  std::vector<int> ends;
-  for (const int v : PrincipalExtremities(FindExtremities(graph, even, areas, kLeastPersistence))) {
-    ends.push_back(surface.vertices[v]);
-  }
-  return ends;
-}
-
 // A limb as a level of its own, and its part of what is fitted.
 struct Limb {
   Limb(const Level& body, const Shape& rest, const std::vector<int>& held_of_body,
@@ -102,7 +86,9 @@ struct Limb {
     for (const int v : held_of_body) is_held[v] = true;
     for (size_t i = 0; i < part.vertices.size(); ++i) {
       level.vertices.push_back(body.vertices[part.vertices[i]]);
-      if (is_held[part.vertices[i]] || distances(i) > kMoved) held.push_back(static_cast<int>(i));
+      const bool beyond = distances(i) > kMoved;
+      if (is_held[part.vertices[i]] && !beyond) ++markers;
+      if (is_held[part.vertices[i]] || beyond) held.push_back(static_cast<int>(i));
     }
   }
 
@@ -129,7 +115,8 @@ struct Limb {
   Eigen::VectorXf distances;  // from the end
   Shape rest;
   std::vector<int> held;
-  double share;  // of the body's area
+  int markers = 0;  // of these, held by the user
+  double share;     // of the body's area
 };
 
 // Where samples of the target are nearest to a template.
@@ -212,13 +199,12 @@ std::optional<Shape> TurnedIfBetter(const Limb& limb, const Shape& shape, const 
 int TurnLimbs(const Level& level, const Shape& rest, const std::vector<int>& held,
               const Target& target, const CorrespondenceOptions& options, Progress* progress,
               Shape* shape) {
-  const SurfaceGraph graph(*level.connectivity, rest);
   const Eigen::VectorXd areas = VertexAreas(*level.connectivity, rest);
   const NearestTriangles nearest(level, *shape, target);
   std::vector<Limb> limbs;
-  for (const int end : EndsOfLimbs(*level.connectivity, rest)) {
-    Limb limb(level, rest, held, graph.From(end), areas);
-    if (limb.share < kLargest) limbs.push_back(std::move(limb));
+  for (const LimbEnd& end : FindLimbEnds(*level.connectivity, rest)) {
+    Limb limb(level, rest, held, end.distances, areas);
+    if (limb.share < kLargest && limb.markers < kEnoughHeld) limbs.push_back(std::move(limb));
   }
   const auto count = static_cast<int>(limbs.size());
   std::vector<std::optional<Shape>> better(count);

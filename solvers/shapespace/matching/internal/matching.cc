@@ -13,11 +13,16 @@
 #include <shapespace/matching/detail/candidate_figures.h>
 #include <shapespace/matching/detail/candidate_maps.h>
 #include <shapespace/matching/detail/compare_bodies.h>
+#include <shapespace/matching/detail/extremities.h>
+#include <shapespace/matching/detail/farthest_points.h>
 #include <shapespace/matching/detail/landmarks.h>
+#include <shapespace/matching/detail/laplacian.h>
 #include <shapespace/matching/detail/markers.h>
 #include <shapespace/matching/detail/matching_body.h>
 #include <shapespace/matching/detail/nearest_columns.h>
 #include <shapespace/matching/detail/part_maps.h>
+#include <shapespace/matching/detail/surface_graph.h>
+#include <shapespace/matching/detail/working_surface.h>
 
 namespace shapespace::internal {
 namespace {
@@ -38,6 +43,8 @@ constexpr size_t kMostKnown = 8;
 constexpr float kContradicts = 0.25F;
 // A refined marker farther than this from the place of its vertex in the fit is left out.
 constexpr double kAgrees = 0.08;
+// Samples from which the ends of limbs alone are found.
+constexpr int kSamplesForLimbs = 200;
 
 void CheckPairs(const VertexPairs& pairs, const WorkingSurface& on_template,
                 const WorkingSurface& on_target) {
@@ -421,6 +428,21 @@ std::vector<std::pair<int, int>> SurfaceMatcher::RefinePartMarkers(
   return AllMarkers(
       first, second, map, extremities, given, Directions::kToTemplate,
       [&](int from, int to) { return StraightDistance(first, back[to], from) <= kAgrees; });
+}
+
+std::vector<LimbEnd> FindLimbEnds(const Connectivity& connectivity, const Shape& shape) {
+  const WorkingSurface surface = MakeWorkingSurface("template", connectivity, shape, nullptr);
+  const SurfaceGraph on_surface(*surface.connectivity, surface.shape);
+  const Eigen::VectorXd areas = MakeLaplacian(*surface.connectivity, surface.shape).areas;
+  const EvenSamples even = SampleEvenly(on_surface, surface.shape, areas, kSamplesForLimbs);
+  const SurfaceGraph graph(connectivity, shape);
+  std::vector<LimbEnd> ends;
+  for (const int v :
+       PrincipalExtremities(FindExtremities(on_surface, even, areas, kLeastPersistence))) {
+    const int end = surface.vertices[v];
+    ends.push_back({end, graph.From(end)});
+  }
+  return ends;
 }
 
 }  // namespace shapespace::internal

@@ -146,6 +146,18 @@ class SurfaceMatcher {
   double seconds_ = 0;
 };
 
+/// The end of a limb, and how far each vertex is from it along the surface, in the unit of the
+/// shape; infinite where there is no connection.
+struct LimbEnd {
+  int vertex = -1;
+  Eigen::VectorXf distances;
+};
+
+/// The ends of the limbs, tail and head of the component with the largest area; three at least, if
+/// it has so many extremities.
+/// \throw MeshError as `SurfaceMatcher`.
+std::vector<LimbEnd> FindLimbEnds(const Connectivity& connectivity, const Shape& shape);
+
 }  // namespace shapespace::internal
 
 #endif  // SHAPESPACE_MATCHING_INTERNAL_MATCHING_H_
