@@ -234,9 +234,7 @@ class FitByMarkers(Case):
         foot, beside = (self.vertex_at(template, place) for place in ((0, 0, 0), (3, 0, 0)))
         for place in ((0, 0, 0), (0, 0, 0.25), (0.25, 0, 0)):
             goal = (3 - place[0], 2, 1.5 * place[2])
-            mark(
-                template, self.vertex_at(template, place), target, self.vertex_at(target, goal)
-            )
+            mark(template, self.vertex_at(template, place), target, self.vertex_at(target, goal))
         select(target, template)
         bpy.ops.shapespace.fit()
         places = seen(bpy.context.active_object, 1)

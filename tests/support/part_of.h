@@ -2,9 +2,11 @@
 #define SHAPESPACE_TESTS_SUPPORT_PART_OF_H_
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include <shapespace/mesh/connectivity.h>
+#include <shapespace/mesh/internal/submesh.h>
 #include <shapespace/mesh/shape.h>
 
 namespace shapespace::testing {
@@ -19,23 +21,9 @@ struct Part {
 /// The triangles of a body in `shape` whose numbers are kept.
 template <typename Keep>
 Part PartOf(const Connectivity& body, const Shape& shape, const Keep& keep) {
-  std::vector<int> index(shape.cols(), -1), triangles;
-  for (int f = 0; f < body.NumTriangles(); ++f) {
-    if (!keep(f)) continue;
-    triangles.push_back(f);
-    for (const int v : body.Triangles().col(f)) index[v] = 0;
-  }
-  Part part;
-  for (int v = 0; v < shape.cols(); ++v) {
-    if (index[v] < 0) continue;
-    index[v] = static_cast<int>(part.vertices.size());
-    part.vertices.push_back(v);
-  }
-  const Eigen::Matrix3Xi chosen = body.Triangles()(Eigen::all, triangles);
-  part.connectivity = Connectivity::FromTriangles(
-      static_cast<int>(part.vertices.size()), chosen.unaryExpr([&](int v) { return index[v]; }));
-  part.shape = shape(Eigen::all, part.vertices);
-  return part;
+  internal::Submesh part = internal::MakeSubmesh(body, keep);
+  const Shape own = shape(Eigen::all, part.vertices);
+  return {std::move(part.connectivity), own, std::move(part.vertices)};
 }
 
 }  // namespace shapespace::testing

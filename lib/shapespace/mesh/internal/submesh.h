@@ -17,16 +17,16 @@ struct Submesh {
   std::vector<int> index;     ///< for each vertex of the mesh its own one, or -1
 };
 
-/// The triangles of which all corners are kept.
-inline Submesh MakeSubmesh(const Connectivity& mesh, const std::vector<bool>& keep) {
+/// The triangles for whose numbers `keep` is true.
+template <typename Keep>
+Submesh MakeSubmesh(const Connectivity& mesh, const Keep& keep) {
   Submesh part;
   part.index.assign(mesh.NumVertices(), -1);
   std::vector<int> triangles;
   for (int f = 0; f < mesh.NumTriangles(); ++f) {
-    const auto triangle = mesh.Triangles().col(f);
-    if (!keep[triangle(0)] || !keep[triangle(1)] || !keep[triangle(2)]) continue;
+    if (!keep(f)) continue;
     triangles.push_back(f);
-    for (const int v : triangle) part.index[v] = 0;
+    for (const int v : mesh.Triangles().col(f)) part.index[v] = 0;
   }
   for (int v = 0; v < mesh.NumVertices(); ++v) {
     if (part.index[v] < 0) continue;
@@ -38,6 +38,14 @@ inline Submesh MakeSubmesh(const Connectivity& mesh, const std::vector<bool>& ke
       Connectivity::FromTriangles(static_cast<int>(part.vertices.size()),
                                   chosen.unaryExpr([&](int v) { return part.index[v]; }));
   return part;
+}
+
+/// The triangles of which all corners are kept.
+inline Submesh MakeSubmesh(const Connectivity& mesh, const std::vector<bool>& keep) {
+  return MakeSubmesh(mesh, [&](int f) {
+    const auto triangle = mesh.Triangles().col(f);
+    return keep[triangle(0)] && keep[triangle(1)] && keep[triangle(2)];
+  });
 }
 
 }  // namespace shapespace::internal

@@ -16,6 +16,9 @@ struct EvenSamples {
   Eigen::MatrixXf distances;  ///< n x samples: of every vertex from each of them
 };
 
+/// So many are enough for what is found from distances: extremities, and whether maps differ.
+inline constexpr int kEvenSamples = 200;
+
 /// `count` of them, or as many as there are distinct places. The first is far from the vertex that
 /// is nearest to the centroid, for which `areas` are the weights. The surface must be connected.
 EvenSamples SampleEvenly(const SurfaceGraph& graph, const Shape& shape,

@@ -7,7 +7,6 @@ namespace {
 
 // As many as the finest maps of parts have. The bodies' heat is compared with all of them.
 constexpr int kFunctions = 100;
-constexpr int kEvenSamples = 200;
 constexpr int kSpread = 1500;
 // Functions by which vertices are spread: enough to tell all parts of a body from each other.
 constexpr int kSpreadFunctions = 40;

@@ -43,8 +43,6 @@ constexpr size_t kMostKnown = 8;
 constexpr float kContradicts = 0.25F;
 // A refined marker farther than this from the place of its vertex in the fit is left out.
 constexpr double kAgrees = 0.08;
-// Samples from which the ends of limbs alone are found.
-constexpr int kSamplesForLimbs = 200;
 
 void CheckPairs(const VertexPairs& pairs, const WorkingSurface& on_template,
                 const WorkingSurface& on_target) {
@@ -434,7 +432,7 @@ std::vector<LimbEnd> FindLimbEnds(const Connectivity& connectivity, const Shape&
   const WorkingSurface surface = MakeWorkingSurface("template", connectivity, shape, nullptr);
   const SurfaceGraph on_surface(*surface.connectivity, surface.shape);
   const Eigen::VectorXd areas = MakeLaplacian(*surface.connectivity, surface.shape).areas;
-  const EvenSamples even = SampleEvenly(on_surface, surface.shape, areas, kSamplesForLimbs);
+  const EvenSamples even = SampleEvenly(on_surface, surface.shape, areas, kEvenSamples);
   const SurfaceGraph graph(connectivity, shape);
   std::vector<LimbEnd> ends;
   for (const int v :
