@@ -225,7 +225,7 @@ TEST(MapDoubt, NamesThePartsThatACheapMapSendsElsewhere) {
   }
   for (size_t i = 0; i < fits.size(); ++i) {
     fits[i].figures = {1, 1, 1};
-    fits[i].deformation = std::vector<double>{1, 1.2, 2}[i];
+    fits[i].deformation = std::vector<double>{1, 1.2, 2}[i] - kAlike;
   }
   const MapDoubt doubt(body, body.own, fits);
   ASSERT_EQ(doubt.parts.size(), 2u);

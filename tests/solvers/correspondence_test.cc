@@ -114,6 +114,30 @@ TEST(Correspond, AnswersForBodiesThatHaveNothingInCommon) {
   EXPECT_TRUE(Names(result.summary.warnings, "a guess")) << result.summary.FullReport();
 }
 
+// A box that is turned upside down is the same again. Neither map costs anything but rounding, and
+// that one has more of it than the other says nothing.
+TEST(Correspond, SaysThatAnExactlySymmetricBodyHasTwoMaps) {
+  const ShapeFamily bar = MakeBody("bar");
+  const Shape shape = bar.pose(bar.begin);
+  std::vector<int> place(shape.cols());
+  std::iota(place.begin(), place.end(), 0);
+  for (const unsigned seed : {1, 2, 3}) {
+    std::shuffle(place.begin(), place.end(), std::mt19937(seed));
+    Shape renumbered = shape;
+    renumbered(Eigen::all, place) = shape;
+    Eigen::Matrix3Xi triangles = bar.connectivity->Triangles();
+    for (int& vertex : triangles.reshaped()) vertex = place[vertex];
+    const CorrespondenceSummary summary =
+        Correspond(bar.connectivity, shape,
+                   Connectivity::FromTriangles(static_cast<int>(shape.cols()), triangles),
+                   renumbered, {})
+            .summary;
+    EXPECT_LT(summary.certainty, 1.01) << summary.FullReport();
+    ASSERT_EQ(summary.parts_in_doubt.size(), 1u) << seed;
+    EXPECT_GT(summary.parts_in_doubt.front().share, 0.9) << seed;
+  }
+}
+
 // The body is its own mirror image, nearly; one marker that is on the other side turns the map
 // round.
 TEST(Correspond, OneMarkerDecidesBetweenMaps) {

@@ -104,7 +104,8 @@ struct CorrespondenceSummary {
     /// cost little more than the cheapest; NaN of others.
     double reverse = kNotComputed;
     /// The product of these four, and of `reverse` as a share of that of the map that would be the
-    /// cheapest without it. The least is chosen.
+    /// cheapest without it; each with a hundredth more, which is as much as two meshes of one body
+    /// may differ. The least is chosen.
     double cost = kNotComputed;
     bool chosen = false;
   };

@@ -22,10 +22,10 @@ struct CandidateFit {
   std::vector<int> to_template;  ///< of each vertex of the target, if it is a part
   double deformation = kNotComputed;
   MapFigures figures;
-  double reverse = 1;  ///< the deformation of the target by the reverse fit, as a share of that
-                       ///< with the cheapest map; 1 if there is no such fit
+  double reverse = 1;  ///< (d + kAlike) of the deformation d of the target by the reverse fit, as
+                       ///< a share of that with the cheapest map; 1 if there is no such fit
 
-  double Cost() const { return deformation * figures.Cost() * reverse; }
+  double Cost() const { return (deformation + kAlike) * figures.Cost() * reverse; }
 };
 
 }  // namespace shapespace::internal

@@ -318,7 +318,7 @@ class Finder {
       deformations[i] = Deformation(stretch, from_.frame, result);
     });
     for (int i = 0; i < count; ++i) {
-      fits_[i].reverse = deformations[i] / deformations[0];
+      fits_[i].reverse = (deformations[i] + kAlike) / (deformations[0] + kAlike);
       rows_[fits_[i].row].reverse = deformations[i];
     }
     CheapestFirst();

@@ -29,8 +29,8 @@ namespace {
 
 // Weight of the curvature in a candidate's cost.
 constexpr double kCurvatureWeight = 0.3;
-// Added to each figure of a map. Less of it is the difference of two meshes of one body.
-constexpr double kAlike = 0.01;
+// Candidates that cost less are kept, also if one of them costs nothing: of a body onto itself.
+constexpr double kNothing = 0.03;
 // Fewer vertices have too few eigenfunctions.
 constexpr int kFewestVertices = 20;
 // Three landmarks are the fewest that determine a map.
@@ -266,7 +266,7 @@ std::vector<MapCandidate> Judge(const MatchingBody& first, const MatchingBody& s
 void KeepCheapest(const MatchingOptions& options, std::vector<MapCandidate>* candidates) {
   std::stable_sort(candidates->begin(), candidates->end(),
                    [](const auto& a, const auto& b) { return a.Cost() < b.Cost(); });
-  const double most = options.cost_ratio * candidates->front().Cost();
+  const double most = std::max(kNothing, options.cost_ratio * candidates->front().Cost());
   while (candidates->back().Cost() > most ||
          static_cast<int>(candidates->size()) > options.max_candidates) {
     candidates->pop_back();

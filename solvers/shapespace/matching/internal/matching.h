@@ -35,6 +35,10 @@ struct MatchingOptions {
   void Validate() const;
 };
 
+/// Added to each figure that says how unlike bodies are. Less of it is the difference of two meshes
+/// of one body, which must not tell between maps.
+inline constexpr double kAlike = 0.01;
+
 /// How unlike two bodies are where a map joins them; 0 for a body and another pose of it.
 struct MapFigures {
   double isometry = kNotComputed;   ///< mean relative change of distances along the surface
@@ -43,7 +47,7 @@ struct MapFigures {
   double heat = kNotComputed;       ///< mean difference of logarithms of heat kernels, which depend
                                     ///< on what is within a tenth of the body's size
 
-  /// Their product, each with a hundredth more lest one decides alone.
+  /// Their product, each with kAlike more.
   double Cost() const;
 };
 
