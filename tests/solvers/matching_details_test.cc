@@ -14,6 +14,7 @@
 #include <shapespace/matching/detail/candidate_figures.h>
 #include <shapespace/matching/detail/extremities.h>
 #include <shapespace/matching/detail/farthest_points.h>
+#include <shapespace/matching/detail/known_ends.h>
 #include <shapespace/matching/detail/laplacian.h>
 #include <shapespace/matching/detail/matching_body.h>
 #include <shapespace/matching/detail/nearest_columns.h>
@@ -277,6 +278,35 @@ TEST(CandidateFigures, TellAReflectionFromTheIdentity) {
     }
     EXPECT_GT(figures.Curvature(whole), 0.95);
     EXPECT_LT(figures.Isometry({whole})[0], 0.02);
+  }
+}
+
+// Of an animal and itself: pairs at the ends of limbs, or near them, say which is which; one in the
+// middle is a landmark.
+TEST(KnownEnds, PairsAtExtremitiesForbidAllOthers) {
+  const SkinnedBody animal = MakeQuadruped(2400);
+  const MatchingBody body("body", *animal.connectivity, animal.pose("stand"), nullptr);
+  const std::vector<int>& ends = body.extremities;
+  ASSERT_EQ(ends.size(), 6u);
+  const auto at_distance = [&](int from, float distance) {
+    Eigen::Index v = 0;
+    (body.graph.From(from).array() - distance).abs().minCoeff(&v);
+    return static_cast<int>(v);
+  };
+  const int middle = at_distance(ends[0], 0.6F);
+  const KnownEnds known(body, ends, body, ends,
+                        {{ends[0], ends[1]},
+                         {at_distance(ends[2], 0.05F), at_distance(ends[4], 0.04F)},
+                         {middle, middle},
+                         {ends[3], middle}});
+  EXPECT_EQ(known.landmarks, (VertexPairs{{middle, middle}, {ends[3], middle}}));
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 6; ++j) {
+      const bool is_known = i == 0 || j == 1 || i == 2 || j == 4;
+      const bool is_right = (i == 0 && j == 1) || (i == 2 && j == 4);
+      const double difference = known.difference(i, j);
+      EXPECT_TRUE(is_known && !is_right ? difference > 100 : difference == 0) << i << ' ' << j;
+    }
   }
 }
 

@@ -250,6 +250,18 @@ TEST(Matching, AgreesWithGivenPairs) {
   ASSERT_FALSE(same.candidates.empty()) << same.problem;
   EXPECT_EQ(same.candidates[0].markers[0], right[0]);
   EXPECT_LT(MeanError(matcher.MapVertices(same.candidates[0]), pair.second, pair.right), 0.05);
+  // An end that is given a partner a little beside that of the map has no other marker.
+  Eigen::VectorXd apart =
+      (pair.second.shape.colwise() - pair.second.shape.col(ends[0].second)).colwise().norm();
+  apart(ends[0].second) = 1e9;
+  Eigen::Index beside;
+  apart.minCoeff(&beside);
+  for (const MapCandidate& candidate :
+       matcher.FindCandidates({{ends[0].first, static_cast<int>(beside)}}).candidates) {
+    EXPECT_EQ(std::count_if(candidate.markers.begin(), candidate.markers.end(),
+                            [&](const auto& marker) { return marker.first == ends[0].first; }),
+              1);
+  }
   // An end that is given another partner has this partner in all candidates.
   const VertexPairs other = {{ends[0].first, ends[1].second}};
   for (const MapCandidate& candidate : matcher.FindCandidates(other).candidates) {

@@ -15,6 +15,7 @@ constexpr size_t kMostMarkers = 40;
 // are; shares of the root of the area.
 constexpr float kRoundTrip = 0.02F;
 constexpr float kSpacing = 0.06F;
+constexpr float kUnlimited = std::numeric_limits<float>::infinity();
 
 // On coarse meshes, where edges are longer than that, the way back may end at a neighbour: the
 // length of the edges of equal triangles of as many vertices.
@@ -43,7 +44,7 @@ class Chosen {
   explicit Chosen(const EvenSamples& even)
       : even_(even),
         least_(Eigen::VectorXf::Constant(static_cast<Eigen::Index>(even.vertices.size()),
-                                         std::numeric_limits<float>::infinity())) {}
+                                         kUnlimited)) {}
 
   bool IsFull() const { return pairs_.size() >= kMostMarkers; }
   bool HasTarget(int to) const { return targets_.count(to) > 0; }
@@ -77,7 +78,13 @@ VertexPairs ChooseMarkers(const MatchingBody& on_template, const AlignedPoints& 
   const EvenSamples& even = on_template.even;
   const float round_trip = RoundTrip(on_template);
   Chosen chosen(even);
-  for (const auto& [from, to] : given) chosen.KeepAwayFrom(on_template.graph.From(from), to);
+  Eigen::VectorXf from_given =
+      Eigen::VectorXf::Constant(on_template.surface.NumVertices(), kUnlimited);
+  for (const auto& [from, to] : given) {
+    const Eigen::VectorXf distances = on_template.graph.From(from);
+    chosen.KeepAwayFrom(distances, to);
+    from_given = from_given.cwiseMin(distances);
+  }
   std::vector<int> ends;
   for (const auto& pair : extremities) ends.push_back(pair.first);
   const Ways of_ends(points, ends);
@@ -86,7 +93,8 @@ VertexPairs ChooseMarkers(const MatchingBody& on_template, const AlignedPoints& 
     // Where the map is vague, the end of a limb is at least on the right limb.
     const bool vague = distances(of_ends.back[i]) > round_trip;
     const int to = vague ? extremities[i].second : of_ends.there[i];
-    if (admits(ends[i], to) && !chosen.HasTarget(to)) chosen.Add(ends[i], to, distances);
+    if (from_given(ends[i]) < kSpacing || !admits(ends[i], to) || chosen.HasTarget(to)) continue;
+    chosen.Add(ends[i], to, distances);
   }
   const Ways ways(points, even.vertices);
   std::vector<bool> possible(even.vertices.size());

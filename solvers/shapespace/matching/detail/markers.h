@@ -18,8 +18,8 @@ using VertexPairs = std::vector<std::pair<int, int>>;
 /// Markers of a map: vertices that are spread over the template, and their images. Each is the
 /// farthest from those before it among the template's even samples whose way to the target and
 /// back ends near where it began; the vertices `first`, in their order, precede them if they do so
-/// too. At most 40, and the even samples are farther than 0.06 from all others and from the pairs
-/// `given`, which are not part of the result. `points` has a column for each vertex of each body.
+/// too. At most 40, farther than 0.06 from the pairs `given`, which are not part of the result; the
+/// even samples are so far from all others too. `points` has a column for each vertex of each body.
 /// `admits(from, to)` says whether a pair may be a marker.
 VertexPairs ChooseMarkers(const MatchingBody& on_template, const AlignedPoints& points,
                           const VertexPairs& extremities, const VertexPairs& given,

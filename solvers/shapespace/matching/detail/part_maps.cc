@@ -74,18 +74,19 @@ VertexPairs PairsOf(const MatchingBody& on_template, const MatchingBody& on_targ
 std::vector<ScaledAssignment> AssignAtScales(const MatchingBody& on_template,
                                              const Landmarks& template_landmarks,
                                              const MatchingBody& on_target,
-                                             const Landmarks& target_landmarks, int count) {
+                                             const Landmarks& target_landmarks,
+                                             const Eigen::MatrixXd& difference, int count) {
   const std::vector<int>&first = on_template.inner_extremities,
         &second = on_target.inner_extremities;
   std::map<std::vector<std::pair<int, int>>, ScaledAssignment> best;
   for (int k = 0; k < kScales; ++k) {
     const double scale = std::sqrt(kLeastPart + (1 - kLeastPart) * k / (kScales - 1));
-    const Assignments assignments =
-        AssignExtremities({template_landmarks.Between(static_cast<int>(first.size())),
-                           scale * target_landmarks.Between(static_cast<int>(second.size())),
-                           HeatDifference(on_template.spectrum, first, on_target.spectrum, second,
-                                          kLocalTime, scale)},
-                          count, kFewestOfAPart);
+    const Assignments assignments = AssignExtremities(
+        {template_landmarks.Between(static_cast<int>(first.size())),
+         scale * target_landmarks.Between(static_cast<int>(second.size())),
+         difference + HeatDifference(on_template.spectrum, first, on_target.spectrum, second,
+                                     kLocalTime, scale)},
+        count, kFewestOfAPart);
     for (const Assignment& assignment : assignments.best) {
       const auto [found, is_new] = best.try_emplace(assignment.pairs);
       if (!is_new && found->second.assignment.cost <= assignment.cost) continue;

@@ -21,6 +21,7 @@ inline constexpr int kFewestOfAPart = 2;
 
 /// Assignments of the target's inner extremities to the template's, with which the distances agree
 /// under any of several scales: at most `count`, cheapest first. Known pairs are landmarks too.
+/// `difference` is added to how different extremities are (template x target).
 struct ScaledAssignment {
   Assignment assignment;
   double scale = 1;
@@ -28,7 +29,8 @@ struct ScaledAssignment {
 std::vector<ScaledAssignment> AssignAtScales(const MatchingBody& on_template,
                                              const Landmarks& template_landmarks,
                                              const MatchingBody& on_target,
-                                             const Landmarks& target_landmarks, int count);
+                                             const Landmarks& target_landmarks,
+                                             const Eigen::MatrixXd& difference, int count);
 
 /// Different maps of these assignments, made by ZoomOut from the target to the template. Each
 /// begins with the scale of its assignment, and then takes the one that its own distances have.

@@ -11,7 +11,7 @@ namespace {
 
 // Added to the squares of functions in the least-squares fit, as a share of the number of samples;
 // functions have a mean square of about 1.
-constexpr double kRidge = 1e-6;
+constexpr double kMapRidge = 1e-6;
 
 // The first `rows` numbers of some columns.
 Eigen::MatrixXf Gather(const Eigen::MatrixXf& columns, int rows, const std::vector<int>& which) {
@@ -33,7 +33,7 @@ SpectralPoints::SpectralPoints(const Spectrum& spectrum, const std::vector<int>&
   for (const int count : counts) {
     const auto sampled = functions.topLeftCorner(count, samples_);
     Eigen::MatrixXd squares = sampled * sampled.transpose();
-    squares.diagonal().array() += kRidge * samples_;
+    squares.diagonal().array() += kMapRidge * samples_;
     inverses_[count] = squares.llt().solve(sampled).cast<float>();
   }
   functions_ = functions.cast<float>();

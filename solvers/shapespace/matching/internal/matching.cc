@@ -15,6 +15,7 @@
 #include <shapespace/matching/detail/compare_bodies.h>
 #include <shapespace/matching/detail/extremities.h>
 #include <shapespace/matching/detail/farthest_points.h>
+#include <shapespace/matching/detail/known_ends.h>
 #include <shapespace/matching/detail/landmarks.h>
 #include <shapespace/matching/detail/laplacian.h>
 #include <shapespace/matching/detail/markers.h>
@@ -177,26 +178,32 @@ std::vector<CandidateMap> FindMaps(const MatchingBody& first, const MatchingBody
                                    Matching* matching) {
   Stopwatch stopwatch;
   ReportProgress(progress, "extremities", 0, 0);
-  if (!HasLandmarks(first, known.size()) || !HasLandmarks(second, known.size())) {
-    std::vector<CandidateMap> maps = MakeMaps(first, second, StartAtAxes(first, second), progress);
-    matching->map_seconds = stopwatch.Seconds();
-    return maps;
-  }
-  const Landmarks on_template(
-      first, LandmarkVertices(first.extremities, known, &std::pair<int, int>::first));
-  const Landmarks on_target(
-      second, LandmarkVertices(second.extremities, known, &std::pair<int, int>::second));
-  const Assignments assignments =
-      AssignExtremities({on_template.Between(matching->template_extremities),
-                         on_target.Between(matching->target_extremities),
-                         HeatDifference(first.spectrum, first.extremities, second.spectrum,
-                                        second.extremities, kLimbTime, 1)},
-                        count, kFewestLandmarks);
+  const KnownEnds ends(first, first.extremities, second, second.extremities, known);
+  std::vector<CandidateMap> starts;
+  const auto start = [&](const VertexPairs& landmarks) {
+    if (!HasLandmarks(first, landmarks.size()) || !HasLandmarks(second, landmarks.size())) return;
+    const Landmarks on_template(
+        first, LandmarkVertices(first.extremities, landmarks, &std::pair<int, int>::first));
+    const Landmarks on_target(
+        second, LandmarkVertices(second.extremities, landmarks, &std::pair<int, int>::second));
+    const Assignments assignments = AssignExtremities(
+        {on_template.Between(matching->template_extremities),
+         on_target.Between(matching->target_extremities),
+         ends.difference + HeatDifference(first.spectrum, first.extremities, second.spectrum,
+                                          second.extremities, kLimbTime, 1)},
+        count, kFewestLandmarks);
+    for (CandidateMap& map :
+         StartAtLandmarks(first, second, on_template, on_target, assignments.best)) {
+      starts.push_back(std::move(map));
+    }
+  };
+  // Of bodies of other proportions a pair on the trunk can make all maps worse.
+  start({});
+  if (!ends.landmarks.empty()) start(ends.landmarks);
+  if (starts.empty()) starts = StartAtAxes(first, second);
   matching->assignment_seconds = stopwatch.Seconds();
   stopwatch = Stopwatch();
-  std::vector<CandidateMap> maps =
-      MakeMaps(first, second,
-               StartAtLandmarks(first, second, on_template, on_target, assignments.best), progress);
+  std::vector<CandidateMap> maps = MakeMaps(first, second, std::move(starts), progress);
   matching->map_seconds = stopwatch.Seconds();
   return maps;
 }
@@ -206,12 +213,13 @@ std::vector<CandidateMap> FindPartMaps(const MatchingBody& first, const Matching
                                        Matching* matching) {
   Stopwatch stopwatch;
   ReportProgress(progress, "extremities", 0, 0);
-  const Landmarks on_template(
-      first, LandmarkVertices(first.inner_extremities, known, &std::pair<int, int>::first));
-  const Landmarks on_target(
-      second, LandmarkVertices(second.inner_extremities, known, &std::pair<int, int>::second));
+  const KnownEnds ends(first, first.inner_extremities, second, second.inner_extremities, known);
+  const Landmarks on_template(first, LandmarkVertices(first.inner_extremities, ends.landmarks,
+                                                      &std::pair<int, int>::first));
+  const Landmarks on_target(second, LandmarkVertices(second.inner_extremities, ends.landmarks,
+                                                     &std::pair<int, int>::second));
   const std::vector<ScaledAssignment> assignments =
-      AssignAtScales(first, on_template, second, on_target, count);
+      AssignAtScales(first, on_template, second, on_target, ends.difference, count);
   matching->assignment_seconds = stopwatch.Seconds();
   stopwatch = Stopwatch();
   std::vector<CandidateMap> maps =
