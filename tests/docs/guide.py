@@ -2,7 +2,8 @@
 """Runs the commands of the guide as a reader would: guide.py BIN [page...].
 
 BIN is the folder of the tools. Each page has a folder of its own, in which its `sh` blocks run one
-after the other. Comments of a page say more about the block that follows them:
+after the other, while other pages run. Comments of a page say more about the block that follows
+them:
 
     <!-- file: greet.json -->      the block is that file, which is there before the first command
     <!-- needs: ../markers.awk --> that file of the project is there too
@@ -11,6 +12,7 @@ after the other. Comments of a page say more about the block that follows them:
 Prints every block with its page and line, and ends with code 1 if one fails.
 """
 
+import concurrent.futures
 import os
 import pathlib
 import re
@@ -84,7 +86,10 @@ def run_page(page, bin_folder):
 def main():
     bin_folder = pathlib.Path(sys.argv[1]).resolve()
     pages = [pathlib.Path(page).resolve() for page in sys.argv[2:]] or PAGES
-    failed = [page.name for page in pages if not run_page(page, bin_folder)]
+    # Tools often use one core only: reading, writing, rendering.
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        ran = list(pool.map(lambda page: run_page(page, bin_folder), pages))
+    failed = [page.name for page, well in zip(pages, ran) if not well]
     if failed:
         print(f"guide: blocks of {', '.join(failed)} cannot be followed", file=sys.stderr)
     sys.exit(1 if failed else 0)

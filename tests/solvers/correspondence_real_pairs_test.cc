@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <fstream>
 #include <ostream>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -92,40 +94,47 @@ TEST_P(RealPairs, MapIsAsGoodAsMeasured) {
   EXPECT_LE(far, pair.far);
 }
 
+class RealKinds : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (std::string(SHAPESPACE_DATA_DIR).empty() || !std::filesystem::exists(folder_)) {
+      GTEST_SKIP() << "no real pairs: set the CMake cache path SHAPESPACE_DATA_DIR";
+    }
+  }
+
+  CorrespondenceResult Fit(const std::string& source_name, const std::string& target_name,
+                           const std::vector<CorrespondenceMarker>& markers) {
+    const Poses source = ReadPoses({(folder_ / (source_name + ".obj")).string()});
+    const Poses target = ReadPoses({(folder_ / (target_name + ".obj")).string()});
+    CorrespondenceResult result = Correspond(source.connectivity, source.shapes[0],
+                                             target.connectivity, target.shapes[0], markers);
+    error_ =
+        ErrorOf(result.map, target, folder_ / (source_name + "-" + target_name + ".truth")).first;
+    return result;
+  }
+
+  const std::filesystem::path folder_ =
+      std::filesystem::path(SHAPESPACE_DATA_DIR) / ".." / "correspondence" / "sets" / "tosca_kinds";
+  double error_ = NAN;  // of the last fit
+};
+
 // A wrong map of this woman onto this gorilla costs less than the right one as long as only she is
 // fitted.
-TEST(RealKinds, WhatCostsNearlyTheSameIsDecidedByTheReverse) {
-  const std::filesystem::path data = SHAPESPACE_DATA_DIR;
-  const std::filesystem::path folder = data / ".." / "correspondence" / "sets" / "tosca_kinds";
-  if (data.empty() || !std::filesystem::exists(folder)) {
-    GTEST_SKIP() << "no real pairs: set the CMake cache path SHAPESPACE_DATA_DIR";
-  }
-  const Poses source = ReadPoses({(folder / "8_woman_08.obj").string()});
-  const Poses target = ReadPoses({(folder / "8_gorilla_02.obj").string()});
-  const CorrespondenceResult result =
-      Correspond(source.connectivity, source.shapes[0], target.connectivity, target.shapes[0], {});
+TEST_F(RealKinds, WhatCostsNearlyTheSameIsDecidedByTheReverse) {
+  const CorrespondenceResult result = Fit("8_woman_08", "8_gorilla_02", {});
   int reverses = 0;
   for (const auto& candidate : result.summary.candidates) {
     reverses += std::isfinite(candidate.reverse) ? 1 : 0;
   }
   EXPECT_GT(reverses, 1);
-  EXPECT_LT(ErrorOf(result.map, target, folder / "8_woman_08-8_gorilla_02.truth").first, 0.062);
+  EXPECT_LT(error_, 0.062);
 }
 
 // A marker on the face, which is right, as a landmark beside the ends of limbs leads to maps that
 // are all worse than without it.
-TEST(RealKinds, ARightMarkerDoesNoHarm) {
-  const std::filesystem::path data = SHAPESPACE_DATA_DIR;
-  const std::filesystem::path folder = data / ".." / "correspondence" / "sets" / "tosca_kinds";
-  if (data.empty() || !std::filesystem::exists(folder)) {
-    GTEST_SKIP() << "no real pairs: set the CMake cache path SHAPESPACE_DATA_DIR";
-  }
-  const Poses source = ReadPoses({(folder / "8_gorilla_02.obj").string()});
-  const Poses target = ReadPoses({(folder / "8_woman_02.obj").string()});
-  const CorrespondenceResult result =
-      Correspond(source.connectivity, source.shapes[0], target.connectivity, target.shapes[0],
-                 {CorrespondenceMarker{841, 1091}});
-  EXPECT_LT(ErrorOf(result.map, target, folder / "8_gorilla_02-8_woman_02.truth").first, 0.074);
+TEST_F(RealKinds, ARightMarkerDoesNoHarm) {
+  Fit("8_gorilla_02", "8_woman_02", {CorrespondenceMarker{841, 1091}});
+  EXPECT_LT(error_, 0.074);
 }
 
 // A tenth above the values measured with the default options (docs/measurements.md).
