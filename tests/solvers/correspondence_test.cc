@@ -30,6 +30,7 @@
 #include "support/motions.h"
 #include "support/part_of.h"
 #include "support/remeshed.h"
+#include "support/renumbered.h"
 #include "support/thin_triangles.h"
 
 namespace shapespace {
@@ -123,15 +124,9 @@ TEST(Correspond, SaysThatAnExactlySymmetricBodyHasTwoMaps) {
   std::iota(place.begin(), place.end(), 0);
   for (const unsigned seed : {1, 2, 3}) {
     std::shuffle(place.begin(), place.end(), std::mt19937(seed));
-    Shape renumbered = shape;
-    renumbered(Eigen::all, place) = shape;
-    Eigen::Matrix3Xi triangles = bar.connectivity->Triangles();
-    for (int& vertex : triangles.reshaped()) vertex = place[vertex];
+    const auto [connectivity, renumbered] = testing::Renumbered(*bar.connectivity, shape, place);
     const CorrespondenceSummary summary =
-        Correspond(bar.connectivity, shape,
-                   Connectivity::FromTriangles(static_cast<int>(shape.cols()), triangles),
-                   renumbered, {})
-            .summary;
+        Correspond(bar.connectivity, shape, connectivity, renumbered, {}).summary;
     EXPECT_LT(summary.certainty, 1.01) << summary.FullReport();
     ASSERT_EQ(summary.parts_in_doubt.size(), 1u) << seed;
     EXPECT_GT(summary.parts_in_doubt.front().share, 0.9) << seed;

@@ -20,6 +20,7 @@
 
 #include "support/listener.h"
 #include "support/message_of.h"
+#include "support/renumbered.h"
 #include "support/threads.h"
 
 namespace shapespace {
@@ -64,15 +65,6 @@ double MeanError(const std::vector<int>& map, const MatchedBody& on, const Shape
   double sum = 0;
   for (size_t v = 0; v < map.size(); ++v) sum += (on.shape.col(map[v]) - right.col(v)).norm();
   return sum / static_cast<double>(map.size()) / RootArea(on);
-}
-
-// The same body with its vertices in another order: vertex v becomes vertex order[v].
-MatchedBody Renumbered(const MatchedBody& body, const std::vector<int>& order) {
-  Shape shape(3, body.shape.cols());
-  for (Eigen::Index v = 0; v < shape.cols(); ++v) shape.col(order[v]) = body.shape.col(v);
-  const Eigen::Matrix3Xi triangles =
-      body.connectivity->Triangles().unaryExpr([&](int v) { return order[v]; });
-  return {Connectivity::FromTriangles(static_cast<int>(shape.cols()), triangles), shape};
 }
 
 std::vector<int> RandomOrder(Eigen::Index count) {
@@ -146,7 +138,8 @@ struct TwoMeshes {
 TEST(Matching, FindsABodyInItselfRenumberedMovedAndScaled) {
   const MatchedBody body = Animal("stride", 4000);
   const std::vector<int> order = RandomOrder(body.shape.cols());
-  MatchedBody other = Renumbered(body, order);
+  const auto [connectivity, shape] = testing::Renumbered(*body.connectivity, body.shape, order);
+  MatchedBody other = {connectivity, shape};
   const Eigen::Matrix3d turn(Eigen::AngleAxisd(2, Eigen::Vector3d(1, 2, 3).normalized()));
   other.shape = (1e-3 * turn * other.shape).colwise() + Eigen::Vector3d(5, -7, 9);
   const SurfaceMatcher matcher = Match(body, other);

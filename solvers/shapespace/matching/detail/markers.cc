@@ -15,7 +15,6 @@ constexpr size_t kMostMarkers = 40;
 // are; shares of the root of the area.
 constexpr float kRoundTrip = 0.02F;
 constexpr float kSpacing = 0.06F;
-constexpr float kUnlimited = std::numeric_limits<float>::infinity();
 
 // On coarse meshes, where edges are longer than that, the way back may end at a neighbour: the
 // length of the edges of equal triangles of as many vertices.
@@ -44,7 +43,7 @@ class Chosen {
   explicit Chosen(const EvenSamples& even)
       : even_(even),
         least_(Eigen::VectorXf::Constant(static_cast<Eigen::Index>(even.vertices.size()),
-                                         kUnlimited)) {}
+                                         std::numeric_limits<float>::infinity())) {}
 
   bool IsFull() const { return pairs_.size() >= kMostMarkers; }
   bool HasTarget(int to) const { return targets_.count(to) > 0; }
@@ -78,12 +77,12 @@ VertexPairs ChooseMarkers(const MatchingBody& on_template, const AlignedPoints& 
   const EvenSamples& even = on_template.even;
   const float round_trip = RoundTrip(on_template);
   Chosen chosen(even);
-  Eigen::VectorXf from_given =
-      Eigen::VectorXf::Constant(on_template.surface.NumVertices(), kUnlimited);
+  using Flags = Eigen::Array<bool, Eigen::Dynamic, 1>;
+  Flags is_given = Flags::Constant(on_template.surface.NumVertices(), false);
   for (const auto& [from, to] : given) {
     const Eigen::VectorXf distances = on_template.graph.From(from);
     chosen.KeepAwayFrom(distances, to);
-    from_given = from_given.cwiseMin(distances);
+    is_given = is_given || distances.array() < kSpacing;
   }
   std::vector<int> ends;
   for (const auto& pair : extremities) ends.push_back(pair.first);
@@ -93,7 +92,7 @@ VertexPairs ChooseMarkers(const MatchingBody& on_template, const AlignedPoints& 
     // Where the map is vague, the end of a limb is at least on the right limb.
     const bool vague = distances(of_ends.back[i]) > round_trip;
     const int to = vague ? extremities[i].second : of_ends.there[i];
-    if (from_given(ends[i]) < kSpacing || !admits(ends[i], to) || chosen.HasTarget(to)) continue;
+    if (is_given(ends[i]) || !admits(ends[i], to) || chosen.HasTarget(to)) continue;
     chosen.Add(ends[i], to, distances);
   }
   const Ways ways(points, even.vertices);

@@ -96,12 +96,13 @@ std::string TooFewVertices(const std::string& name, const MatchingBody& body) {
          " are needed";
 }
 
-std::vector<int> LandmarkVertices(std::vector<int> vertices, const VertexPairs& known,
-                                  int std::pair<int, int>::*side) {
+// Extremities, and the points of known pairs on the same `side`.
+Landmarks WithKnown(const MatchingBody& body, std::vector<int> extremities,
+                    const VertexPairs& known, int std::pair<int, int>::*side) {
   for (size_t k = 0; k < std::min(known.size(), kMostKnown); ++k) {
-    vertices.push_back(known[k].*side);
+    extremities.push_back(known[k].*side);
   }
-  return vertices;
+  return {body, std::move(extremities)};
 }
 
 AlignedPoints AlignAll(const MatchingBody& on_template, const MatchingBody& on_target,
@@ -176,22 +177,25 @@ bool HasLandmarks(const MatchingBody& body, size_t known) {
 std::vector<CandidateMap> FindMaps(const MatchingBody& first, const MatchingBody& second,
                                    const VertexPairs& known, int count, Progress* progress,
                                    Matching* matching) {
-  Stopwatch stopwatch;
+  const Stopwatch stopwatch;
   ReportProgress(progress, "extremities", 0, 0);
   const KnownEnds ends(first, first.extremities, second, second.extremities, known);
+  const Eigen::MatrixXd difference =
+      ends.difference + HeatDifference(first.spectrum, first.extremities, second.spectrum,
+                                       second.extremities, kLimbTime, 1);
   std::vector<CandidateMap> starts;
   const auto start = [&](const VertexPairs& landmarks) {
     if (!HasLandmarks(first, landmarks.size()) || !HasLandmarks(second, landmarks.size())) return;
-    const Landmarks on_template(
-        first, LandmarkVertices(first.extremities, landmarks, &std::pair<int, int>::first));
-    const Landmarks on_target(
-        second, LandmarkVertices(second.extremities, landmarks, &std::pair<int, int>::second));
-    const Assignments assignments = AssignExtremities(
-        {on_template.Between(matching->template_extremities),
-         on_target.Between(matching->target_extremities),
-         ends.difference + HeatDifference(first.spectrum, first.extremities, second.spectrum,
-                                          second.extremities, kLimbTime, 1)},
-        count, kFewestLandmarks);
+    const Stopwatch own;
+    const Landmarks on_template =
+        WithKnown(first, first.extremities, landmarks, &std::pair<int, int>::first);
+    const Landmarks on_target =
+        WithKnown(second, second.extremities, landmarks, &std::pair<int, int>::second);
+    const Assignments assignments =
+        AssignExtremities({on_template.Between(matching->template_extremities),
+                           on_target.Between(matching->target_extremities), difference},
+                          count, kFewestLandmarks);
+    matching->assignment_seconds += own.Seconds();
     for (CandidateMap& map :
          StartAtLandmarks(first, second, on_template, on_target, assignments.best)) {
       starts.push_back(std::move(map));
@@ -201,10 +205,8 @@ std::vector<CandidateMap> FindMaps(const MatchingBody& first, const MatchingBody
   start({});
   if (!ends.landmarks.empty()) start(ends.landmarks);
   if (starts.empty()) starts = StartAtAxes(first, second);
-  matching->assignment_seconds = stopwatch.Seconds();
-  stopwatch = Stopwatch();
   std::vector<CandidateMap> maps = MakeMaps(first, second, std::move(starts), progress);
-  matching->map_seconds = stopwatch.Seconds();
+  matching->map_seconds = stopwatch.Seconds() - matching->assignment_seconds;
   return maps;
 }
 
@@ -214,10 +216,10 @@ std::vector<CandidateMap> FindPartMaps(const MatchingBody& first, const Matching
   Stopwatch stopwatch;
   ReportProgress(progress, "extremities", 0, 0);
   const KnownEnds ends(first, first.inner_extremities, second, second.inner_extremities, known);
-  const Landmarks on_template(first, LandmarkVertices(first.inner_extremities, ends.landmarks,
-                                                      &std::pair<int, int>::first));
-  const Landmarks on_target(second, LandmarkVertices(second.inner_extremities, ends.landmarks,
-                                                     &std::pair<int, int>::second));
+  const Landmarks on_template =
+      WithKnown(first, first.inner_extremities, ends.landmarks, &std::pair<int, int>::first);
+  const Landmarks on_target =
+      WithKnown(second, second.inner_extremities, ends.landmarks, &std::pair<int, int>::second);
   const std::vector<ScaledAssignment> assignments =
       AssignAtScales(first, on_template, second, on_target, ends.difference, count);
   matching->assignment_seconds = stopwatch.Seconds();
