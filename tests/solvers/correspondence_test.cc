@@ -92,6 +92,15 @@ TEST(Correspond, FindsTheMapWithoutMarkers) {
   for (const CorrespondenceMarker& marker : result.markers) EXPECT_TRUE(marker.soft);
   EXPECT_TRUE(std::any_of(result.summary.candidates.begin(), result.summary.candidates.end(),
                           [](const auto& candidate) { return candidate.chosen; }));
+  // One is given up after a rough fit.
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& map : result.summary.candidates) least = std::min(least, map.rough_cost);
+  int given_up = 0;
+  for (const auto& map : result.summary.candidates) {
+    EXPECT_EQ(std::isnan(map.cost), map.rough_cost > 2 * least) << map.rough_cost / least;
+    if (std::isnan(map.cost)) ++given_up;
+  }
+  EXPECT_EQ(given_up, 1);
 }
 
 // A fit of this template onto a body with short legs that rears does not reach all of a leg, which

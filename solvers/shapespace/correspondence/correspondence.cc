@@ -83,7 +83,7 @@ CorrespondenceResult Correspond(const std::shared_ptr<const Connectivity>& templ
       options.find_markers || markers.size() < 3
           ? internal::FitWithFoundMarkers(from, target, markers, options, summary, progress)
           : internal::FitWithMarkers(from, target, markers, markers.size(), options, summary,
-                                     internal::Folds::kUnfold, progress);
+                                     internal::Effort::kUnfold, progress);
   result.summary.total_seconds = total.Seconds();
   return result;
 }

@@ -94,8 +94,8 @@ struct CorrespondenceSummary {
     int markers = 0;                    ///< for the fit
     /// Of the template by a fit of its coarsest level: the mean of |log S| of its triangles'
     /// stretches S, at most 1 each, and of the square of its part that varies over less than
-    /// `proportions`, and the shares that are uncovered or turned over. NaN if the fit failed, as
-    /// are the figures that follow.
+    /// `proportions`, and the shares that are uncovered or turned over. NaN if the fit failed or a
+    /// rough one cost too much, as are the figures that follow.
     double deformation = kNotComputed;
     double isometry = kNotComputed;   ///< mean relative change of distances along the surface
     double curvature = kNotComputed;  ///< mean difference of mean curvatures, at most 1 each
@@ -107,6 +107,9 @@ struct CorrespondenceSummary {
     /// cheapest without it; each with a hundredth more, which is as much as two meshes of one body
     /// may differ. The least is chosen.
     double cost = kNotComputed;
+    /// The cost of a rough fit, without `reverse`. Candidates of which it is more than twice
+    /// that of the cheapest are given up. NaN if the target is a part.
+    double rough_cost = kNotComputed;
     bool chosen = false;
   };
 
@@ -130,7 +133,7 @@ struct CorrespondenceSummary {
   std::vector<Candidate> candidates;
   int template_extremities = -1, target_extremities = -1;
   /// Cost of the best map that sends a tenth of the template elsewhere, as a multiple of that of
-  /// the one chosen: below 1.25 the choice is in doubt. NaN if there is none.
+  /// the one chosen: below 1.25 the choice is in doubt. NaN if there is none that was not given up.
   double certainty = kNotComputed;
   std::vector<PartInDoubt> parts_in_doubt;  ///< largest first
   double scale = kNotComputed;              ///< size of the target, as a multiple of the template's

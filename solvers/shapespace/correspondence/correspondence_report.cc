@@ -53,7 +53,8 @@ std::string CorrespondenceSummary::FullReport() const {
     out << Format("\nFound without markers: extremities %d and %d; certainty %s\n",
                   template_extremities, target_extremities,
                   internal::IfComputed(certainty, Format("%.3g", certainty)).c_str())
-        << "orientation  markers  deformation  isometry  curvature      heat  reverse       cost\n";
+        << "orientation  markers  deformation  isometry  curvature      heat  reverse       cost  "
+           "rough cost\n";
   }
   for (const Candidate& map : candidates) {
     out << Format("%11.3f %8d", map.orientation, map.markers);
@@ -66,8 +67,10 @@ std::string CorrespondenceSummary::FullReport() const {
     figure(10, map.curvature, 3);
     figure(9, map.heat, 3);
     figure(8, map.reverse, 3);
-    out << Format(" %10s%s\n", internal::IfComputed(map.cost, Format("%.3g", map.cost)).c_str(),
-                  map.chosen ? "  (chosen)" : "");
+    for (const double cost : {map.cost, map.rough_cost}) {
+      out << Format(" %10s", internal::IfComputed(cost, Format("%.3g", cost)).c_str());
+    }
+    out << (map.chosen ? "  (chosen)\n" : "\n");
   }
   for (const PartInDoubt& part : parts_in_doubt) {
     out << Format(

@@ -134,9 +134,11 @@ TEST(Golden, Correspondences) {
   summary.cancelled = true;
   text.Variant("cancelled", TextsOf(summary));
   summary = CorrespondenceOfNumbers();
-  summary.candidates = {{0.75, 40, 0.25, 0.0625, 0.125, 0.375, 0.875, 0.00073242, true}, {}};
+  summary.candidates = {
+      {0.75, 40, 0.25, 0.0625, 0.125, 0.375, 0.875, 0.00073242, 0.0009765625, true}, {}};
   summary.candidates[1].orientation = 0.625;
   summary.candidates[1].markers = 39;
+  summary.candidates[1].rough_cost = 0.00390625;
   summary.template_extremities = 5;
   summary.target_extremities = 6;
   summary.certainty = 1.5;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -36,7 +35,6 @@ constexpr double kHopeless = 4;
 // A limb is turned if its energy then is at most this share. Of 14 pairs of people those whose hand
 // had been wrong by half a turn had .80 to .95, others .97 and more.
 constexpr double kBetter = 0.95;
-constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 // The middle of a limb, as a function of the distance from its end.
 class Axis {
@@ -149,49 +147,71 @@ class NearestTriangles {
   std::vector<int> nearest_;
 };
 
-struct Fitted {
-  Shape shape;
-  double first_energy, energy;  // after the first rounds, and after all
+// The fit of a limb, which may begin with any shape of it.
+class LimbFit {
+ public:
+  LimbFit(const Limb& limb, const Target& target, const TargetSamples& samples,
+          const CorrespondenceOptions& options)
+      : limb_(limb),
+        target_(target),
+        samples_(samples),
+        tolerance_(options.tolerance),
+        fit_(limb.level.connectivity, limb.rest, limb.held, options.bending, options.proportions) {}
+
+  // Each returns the energy after it.
+  double Begin(Shape* shape) {
+    Rounds(kLooseWeight, kFirstRounds, shape);
+    return fit_.Energy(Terms(kTightWeight, *shape), *shape);
+  }
+  double End(Shape* shape) {
+    Rounds(kLooseWeight, kLooseRounds, shape);
+    Rounds(kTightWeight, kTightRounds, shape);
+    return fit_.Energy(Terms(kTightWeight, *shape), *shape);
+  }
+
+ private:
+  void Rounds(double weight, int count, Shape* shape) {
+    for (int i = 0; i < count; ++i) {
+      if (fit_.Step(Terms(weight, *shape), shape) < tolerance_) break;
+    }
+  }
+
+  // Weighted as in a fit of the whole, divided by the limb's share.
+  std::vector<PointToPlaneTerm> Terms(double weight, const Shape& shape) const {
+    double distance;
+    return FindTerms(limb_.level, shape, limb_.share * fit_.VertexAreas(), target_, samples_,
+                     weight, &distance);
+  }
+
+  const Limb& limb_;
+  const Target& target_;
+  const TargetSamples& samples_;
+  const double tolerance_;
+  ShellFit fit_;
 };
 
-// \param hopeless the energy after the first rounds from which on there are no others.
-Fitted Fit(const Limb& limb, Shape shape, const Target& target, const TargetSamples& samples,
-           const CorrespondenceOptions& options, double hopeless) {
-  ShellFit fit(limb.level.connectivity, limb.rest, limb.held, options.bending, options.proportions);
-  // Weighted as in a fit of the whole, divided by the limb's share.
-  const auto terms = [&](double weight) {
-    double distance;
-    return FindTerms(limb.level, shape, limb.share * fit.VertexAreas(), target, samples, weight,
-                     &distance);
-  };
-  const auto rounds = [&](double weight, int count) {
-    for (int i = 0; i < count; ++i) {
-      if (fit.Step(terms(weight), &shape) < options.tolerance) break;
-    }
-  };
-  rounds(kLooseWeight, kFirstRounds);
-  const double first_energy = fit.Energy(terms(kTightWeight), shape);
-  if (first_energy > hopeless) return {{}, first_energy, first_energy};
-  rounds(kLooseWeight, kLooseRounds);
-  rounds(kTightWeight, kTightRounds);
-  const double energy = fit.Energy(terms(kTightWeight), shape);
-  return {std::move(shape), first_energy, energy};
-}
-
 // The limb turned by half a turn if its energy is less then.
-std::optional<Shape> TurnedIfBetter(const Limb& limb, const Shape& shape, const Target& target,
+std::optional<Shape> TurnedIfBetter(const Limb& limb, Shape shape, const Target& target,
                                     const TargetSamples& samples,
                                     const CorrespondenceOptions& options) {
-  const Fitted as_it_is = Fit(limb, shape, target, samples, options, kUnlimited);
-  Fitted best = as_it_is;
+  LimbFit fit(limb, target, samples, options);
   // Either way, which twist the forearm differently.
-  for (const double angle : {EIGEN_PI, -EIGEN_PI}) {
-    Fitted turned = Fit(limb, limb.Turned(shape, angle), target, samples, options,
-                        kHopeless * as_it_is.first_energy);
-    if (turned.energy < best.energy) best = std::move(turned);
+  std::vector<Shape> turned;
+  for (const double angle : {EIGEN_PI, -EIGEN_PI}) turned.push_back(limb.Turned(shape, angle));
+  const double hopeless = kHopeless * fit.Begin(&shape);
+  turned.erase(std::remove_if(turned.begin(), turned.end(),
+                              [&](Shape& other) { return fit.Begin(&other) > hopeless; }),
+               turned.end());
+  if (turned.empty()) return std::nullopt;
+  double least = kBetter * fit.End(&shape);
+  std::optional<Shape> better;
+  for (Shape& other : turned) {
+    const double energy = fit.End(&other);
+    if (energy > least) continue;
+    least = energy;
+    better = std::move(other);
   }
-  if (best.energy > kBetter * as_it_is.energy) return std::nullopt;
-  return std::move(best.shape);
+  return better;
 }
 
 }  // namespace

@@ -119,7 +119,7 @@ FitBody::FitBody(const std::shared_ptr<const Connectivity>& mesh, const Shape& t
 CorrespondenceResult FitWithMarkers(const FitBody& from, const FitBody& target,
                                     const std::vector<CorrespondenceMarker>& all_markers,
                                     size_t num_given, const CorrespondenceOptions& options,
-                                    const CorrespondenceSummary& begun, Folds folds,
+                                    const CorrespondenceSummary& begun, Effort effort,
                                     Progress* progress) {
   const Stopwatch stopwatch;
   CorrespondenceResult result;
@@ -174,7 +174,7 @@ CorrespondenceResult FitWithMarkers(const FitBody& from, const FitBody& target,
   const Target goal(target.connectivity, target.own, measured.distances);
   summary.marker_seconds = stopwatch.Seconds();
 
-  TemplateFit fit(options, goal, std::move(placed), folds, progress, &summary);
+  TemplateFit fit(options, goal, std::move(placed), effort, progress, &summary);
   const Shape fitted_part = fit(part.connectivity, rest(Eigen::all, part.vertices));
   if (!HasArea(*part.connectivity, fitted_part)) {
     throw MeshError(

@@ -30,7 +30,7 @@ struct FitBody {
 CorrespondenceResult FitWithMarkers(const FitBody& from, const FitBody& target,
                                     const std::vector<CorrespondenceMarker>& markers,
                                     size_t num_given, const CorrespondenceOptions& options,
-                                    const CorrespondenceSummary& summary, Folds folds,
+                                    const CorrespondenceSummary& summary, Effort effort,
                                     Progress* progress);
 
 }  // namespace shapespace::internal

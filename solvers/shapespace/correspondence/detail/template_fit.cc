@@ -16,7 +16,7 @@ namespace {
 // With these values all pairs reach the figures of docs/measurements.md; half or twice as many
 // rounds change the figures by less than a tenth.
 constexpr double kCoarseWeights[] = {1, 3, 10, 30, 100};
-constexpr int kCoarseRounds = 6;
+constexpr int kCoarseRounds = 6, kRoughRounds = 2;
 constexpr double kFineWeight = 100, kLastWeight = 1000;
 constexpr int kFineRounds = 3;
 // Factor of the bending weight during the search for the pose.
@@ -33,12 +33,12 @@ int IndexOn(const Level& level, int v) {
 }  // namespace
 
 TemplateFit::TemplateFit(const CorrespondenceOptions& options, const Target& target,
-                         FitMarkers markers, Folds folds, Progress* progress,
+                         FitMarkers markers, Effort effort, Progress* progress,
                          CorrespondenceSummary* summary)
     : options_(options),
       target_(target),
       markers_(std::move(markers)),
-      folds_(folds),
+      effort_(effort),
       progress_(progress),
       summary_(summary) {}
 
@@ -56,27 +56,32 @@ Shape TemplateFit::operator()(const std::shared_ptr<const Connectivity>& connect
     const Shape level_rest = hierarchy.Restrict(rest, level_);
     const Level level = {hierarchy.LevelConnectivity(level_), hierarchy.Vertices(level_),
                          BorderOf(*hierarchy.LevelConnectivity(level_))};
-    if (level_ == 0) FindPose(level, level_rest, &shape);
-    // On the first level hands are too coarse to tell their palms from their backs.
-    if (level_ == 1) FindTurns(level, level_rest, &shape);
-    if (level_ + 1 == num_levels_) {
-      Finish(level, level_rest, &shape);
-    } else {
-      if (level_ > 0) {
-        ShellFit fit = MakeFit(level, level_rest, options_.bending);
-        Rounds(level, &fit, kFineWeight, kFineRounds, &shape);
-        // The last weight is reached here, where a round takes a quarter of the time of one on the
-        // last level.
-        if (level_ + 2 == num_levels_) {
-          Rounds(level, &fit, kLastWeight, options_.max_iterations, &shape);
-        }
-      }
+    FitLevel(level, level_rest, &shape);
+    if (level_ + 1 < num_levels_) {
       const Shape finer = hierarchy.Restrict(rest, level_ + 1);
       shape = hierarchy.Lift(shape, level_, finer, finer, 0);
     }
   }
   summary_->fit_seconds = stopwatch.Seconds() - summary_->hierarchy_seconds;
   return shape;
+}
+
+void TemplateFit::FitLevel(const Level& level, const Shape& rest, Shape* shape) {
+  if (level_ == 0) FindPose(level, rest, shape);
+  if (effort_ == Effort::kRough) return;
+  // On the first level hands are too coarse to tell their palms from their backs.
+  if (level_ == 1) FindTurns(level, rest, shape);
+  if (level_ + 1 == num_levels_) {
+    Finish(level, rest, shape);
+  } else if (level_ > 0) {
+    ShellFit fit = MakeFit(level, rest, options_.bending);
+    Rounds(level, &fit, kFineWeight, kFineRounds, shape);
+    // The last weight is reached here, where a round takes a quarter of the time of one on the last
+    // level.
+    if (level_ + 2 == num_levels_) {
+      Rounds(level, &fit, kLastWeight, options_.max_iterations, shape);
+    }
+  }
 }
 
 std::vector<int> TemplateFit::MarkersOn(const Level& level) const {
@@ -119,6 +124,10 @@ void TemplateFit::FindPose(const Level& level, const Shape& rest, Shape* shape) 
   stage.seconds = stopwatch.Seconds();
   summary_->stages.push_back(stage);
   ShellFit shell = MakeFit(level, rest, kCoarseBending * options_.bending);
+  if (effort_ == Effort::kRough) {
+    Rounds(level, &shell, kCoarseWeights[0], kRoughRounds, shape);
+    return;
+  }
   for (const double weight : kCoarseWeights) {
     Rounds(level, &shell, weight, kCoarseRounds, shape);
   }
@@ -143,7 +152,7 @@ void TemplateFit::Finish(const Level& level, const Shape& rest, Shape* shape) {
   summary_->converged =
       Rounds(level, &fit, kLastWeight, options_.max_iterations, shape) && !summary_->cancelled;
   const Stopwatch stopwatch;
-  if (folds_ == Folds::kUnfold) Unfold(level, rest, target_, HeldOn(level), shape);
+  if (effort_ == Effort::kUnfold) Unfold(level, rest, target_, HeldOn(level), shape);
   level.connectivity->CopyToTwins(shape);
   summary_->unfold_seconds = stopwatch.Seconds();
 }

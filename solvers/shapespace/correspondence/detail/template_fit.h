@@ -22,15 +22,19 @@ struct FitMarkers {
   std::vector<bool> held;
 };
 
-/// Whether folds of a fit are unfolded. Those of a wrong candidate take more time than all else.
-enum class Folds { kKeep, kUnfold };
+/// How far a fit goes.
+enum class Effort {
+  kRough,      ///< two rounds on the coarsest level, which tell what the fit is going to cost
+  kKeepFolds,  ///< to the end, without unfolding, which takes most time with wrong markers
+  kUnfold,
+};
 
 /// Fits the template onto the target level by level.
 class TemplateFit {
  public:
   /// `options`, `target`, `progress` (may be null) and `summary` are kept.
   TemplateFit(const CorrespondenceOptions& options, const Target& target, FitMarkers markers,
-              Folds folds, Progress* progress, CorrespondenceSummary* summary);
+              Effort effort, Progress* progress, CorrespondenceSummary* summary);
 
   /// `rest`: the template at rest, in the target's frame. \return the fitted template. Stages,
   /// seconds and how it ended are said in the summary.
@@ -42,6 +46,7 @@ class TemplateFit {
   std::vector<int> MarkersOn(const Level& level) const;
   std::vector<int> HeldOn(const Level& level) const;
   bool Stops();
+  void FitLevel(const Level& level, const Shape& rest, Shape* shape);
   void FindPose(const Level& level, const Shape& rest, Shape* shape);
   void FindTurns(const Level& level, const Shape& rest, Shape* shape);
   void Finish(const Level& level, const Shape& rest, Shape* shape);
@@ -52,7 +57,7 @@ class TemplateFit {
   const CorrespondenceOptions& options_;
   const Target& target_;
   const FitMarkers markers_;
-  const Folds folds_;
+  const Effort effort_;
   Progress* const progress_;
   CorrespondenceSummary* const summary_;
   int level_ = 0, num_levels_ = 0;

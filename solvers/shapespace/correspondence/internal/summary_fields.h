@@ -38,6 +38,7 @@ void ForFields(Of<CorrespondenceSummary::Candidate>, const Visit& visit) {
   visit("heat", &CorrespondenceSummary::Candidate::heat);
   visit("reverse", &CorrespondenceSummary::Candidate::reverse);
   visit("cost", &CorrespondenceSummary::Candidate::cost);
+  visit("rough_cost", &CorrespondenceSummary::Candidate::rough_cost);
   visit("chosen", &CorrespondenceSummary::Candidate::chosen);
 }
 
