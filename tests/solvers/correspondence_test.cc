@@ -113,6 +113,20 @@ TEST(Correspond, FindsWithoutMarkersWhatOnlyTheReverseFitReaches) {
   EXPECT_LT(bodies.Errors(result.map).maxCoeff(), 8 * bodies.Edge());
 }
 
+// Of some animals the snout sticks out most of the head, of others an ear, and the other less.
+TEST(Correspond, FindsWithoutMarkersTheSnoutBesideAnEar) {
+  const Remeshed bodies;
+  const auto animal = [](int triangles, unsigned seed) {
+    return MakeQuadruped(triangles, RandomQuadrupedForm({}, seed)).random_pose(seed);
+  };
+  for (const auto& [one, other] : {std::pair(303, 310), std::pair(101, 108)}) {
+    const CorrespondenceResult result =
+        Correspond(bodies.first.connectivity, animal(2400, one), bodies.second.connectivity,
+                   animal(3300, other), {});
+    EXPECT_LT(bodies.Errors(result.map).mean(), bodies.Edge()) << one;
+  }
+}
+
 // Each map of an animal to a bar is nonsense, which is said. Triangles collapse between the markers
 // that the fits in both directions give.
 TEST(Correspond, AnswersForBodiesThatHaveNothingInCommon) {

@@ -30,7 +30,7 @@ constexpr int kEnoughHeld = 3;
 constexpr double kLooseWeight = 100, kTightWeight = 1000;
 constexpr int kFirstRounds = 4, kLooseRounds = 6, kTightRounds = 4;
 // A turned limb whose energy after the first rounds is this many times that of the other is given
-// up, which saves half of the time; of those that become better it is 1.2 to 3 times as much.
+// up, as are a third of them; of those that become better it is 0.6 to 1.8 times as much.
 constexpr double kHopeless = 4;
 // A limb is turned if its energy then is at most this share. Of 14 pairs of people those whose hand
 // had been wrong by half a turn had .80 to .95, others .97 and more.

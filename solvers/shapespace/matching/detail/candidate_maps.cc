@@ -144,8 +144,8 @@ std::vector<CandidateMap> StartAtLandmarks(const MatchingBody& on_template,
   ParallelFor(static_cast<int>(maps.size()), [&](int i) {
     maps[i].assignment = assignments[i];
     const auto [a, b] = DescribeBoth(
-        template_landmarks, static_cast<int>(on_template.extremities.size()), target_landmarks,
-        static_cast<int>(on_target.extremities.size()), assignments[i]);
+        template_landmarks, static_cast<int>(on_template.all_extremities.size()), target_landmarks,
+        static_cast<int>(on_target.all_extremities.size()), assignments[i]);
     maps[i].map = NearestStart(a, b);
   });
   return maps;

@@ -29,8 +29,12 @@ std::vector<Extremity> FindExtremities(const SurfaceGraph& graph, const EvenSamp
 /// and ears. \param extremities in descending order of persistence.
 std::vector<int> PrincipalExtremities(const std::vector<Extremity>& extremities);
 
+/// The vertices of those that stick out less but are no fingers: snouts of animals with long ears,
+/// ears of others.
+std::vector<int> MinorExtremities(const std::vector<Extremity>& extremities);
+
 /// Persistence above which an extremity is sought at all, as a share of the root of the area.
-/// Fingers and ears have 0.02 to 0.06.
+/// Fingers and toes have 0.02 to 0.05.
 inline constexpr double kLeastPersistence = 0.02;
 
 }  // namespace shapespace::internal

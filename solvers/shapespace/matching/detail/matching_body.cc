@@ -45,6 +45,8 @@ MatchingBody::MatchingBody(const std::string& name, const Connectivity& connecti
   spread = SpreadVertices(spectrum, even.vertices.front());
   std::vector<Extremity> all = FindExtremities(graph, even, laplacian.areas, kLeastPersistence);
   extremities = PrincipalExtremities(all);
+  all_extremities = extremities;
+  for (const int v : MinorExtremities(all)) all_extremities.push_back(v);
   from_border = graph.FromAny(border.vertices);
   all.erase(
       std::remove_if(all.begin(), all.end(),

@@ -39,9 +39,10 @@ struct MatchingBody {
   SurfaceGraph graph;
   Laplacian laplacian;
   Spectrum spectrum;
-  EvenSamples even;              ///< 200, evenly along the surface
-  std::vector<int> spread;       ///< 1500, evenly among the first eigenfunctions
-  std::vector<int> extremities;  ///< the principal ones, in descending order of persistence
+  EvenSamples even;                  ///< 200, evenly along the surface
+  std::vector<int> spread;           ///< 1500, evenly among the first eigenfunctions
+  std::vector<int> extremities;      ///< the principal ones, in descending order of persistence
+  std::vector<int> all_extremities;  ///< these, then minor ones
   SurfaceBorder border;
   Eigen::VectorXf from_border;  ///< of each vertex, its distance; infinite if there is no border
   /// The principal ones among extremities that are not where something is cut off.

@@ -172,6 +172,42 @@ bool HasLandmarks(const MatchingBody& body, size_t known) {
   return body.extremities.size() + known >= kFewestLandmarks;
 }
 
+// Distances of the first `count` of a body's extremities from each other and from the known points
+// behind all extremities.
+Eigen::MatrixXd Distances(const MatchingBody& body, const Landmarks& landmarks, int count) {
+  const Eigen::MatrixXd all = landmarks.Between(count);
+  Eigen::MatrixXd distances(count, count + all.cols() - body.all_extremities.size());
+  distances << all.leftCols(count), all.rightCols(distances.cols() - count);
+  return distances;
+}
+
+// The best assignments of principal extremities, and those in which one is what sticks out less of
+// the other body: a snout beside long ears.
+std::vector<Assignment> AssignEnds(const MatchingBody& first, const Landmarks& on_template,
+                                   const MatchingBody& second, const Landmarks& on_target,
+                                   const Eigen::MatrixXd& difference, int count) {
+  std::vector<Assignment> all;
+  const size_t rows = first.extremities.size(), columns = second.extremities.size();
+  const auto add = [&](size_t from, size_t to, bool with_minor) {
+    for (Assignment& assignment :
+         AssignExtremities({Distances(first, on_template, static_cast<int>(from)),
+                            Distances(second, on_target, static_cast<int>(to)),
+                            difference.topLeftCorner(from, to)},
+                           count, kFewestLandmarks)
+             .best) {
+      const bool has_minor =
+          std::any_of(assignment.pairs.begin(), assignment.pairs.end(), [&](const auto& pair) {
+            return pair.first >= static_cast<int>(rows) || pair.second >= static_cast<int>(columns);
+          });
+      if (has_minor == with_minor) all.push_back(std::move(assignment));
+    }
+  };
+  add(rows, columns, false);
+  add(rows, second.all_extremities.size(), true);
+  add(first.all_extremities.size(), columns, true);
+  return all;
+}
+
 // Maps of the best assignments of extremities, beside pairs that are known. Where there are too
 // few, the bodies are taken to be in similar poses.
 std::vector<CandidateMap> FindMaps(const MatchingBody& first, const MatchingBody& second,
@@ -179,25 +215,22 @@ std::vector<CandidateMap> FindMaps(const MatchingBody& first, const MatchingBody
                                    Matching* matching) {
   const Stopwatch stopwatch;
   ReportProgress(progress, "extremities", 0, 0);
-  const KnownEnds ends(first, first.extremities, second, second.extremities, known);
+  const KnownEnds ends(first, first.all_extremities, second, second.all_extremities, known);
   const Eigen::MatrixXd difference =
-      ends.difference + HeatDifference(first.spectrum, first.extremities, second.spectrum,
-                                       second.extremities, kLimbTime, 1);
+      ends.difference + HeatDifference(first.spectrum, first.all_extremities, second.spectrum,
+                                       second.all_extremities, kLimbTime, 1);
   std::vector<CandidateMap> starts;
   const auto start = [&](const VertexPairs& landmarks) {
     if (!HasLandmarks(first, landmarks.size()) || !HasLandmarks(second, landmarks.size())) return;
     const Stopwatch own;
     const Landmarks on_template =
-        WithKnown(first, first.extremities, landmarks, &std::pair<int, int>::first);
+        WithKnown(first, first.all_extremities, landmarks, &std::pair<int, int>::first);
     const Landmarks on_target =
-        WithKnown(second, second.extremities, landmarks, &std::pair<int, int>::second);
-    const Assignments assignments =
-        AssignExtremities({on_template.Between(matching->template_extremities),
-                           on_target.Between(matching->target_extremities), difference},
-                          count, kFewestLandmarks);
+        WithKnown(second, second.all_extremities, landmarks, &std::pair<int, int>::second);
+    const std::vector<Assignment> assignments =
+        AssignEnds(first, on_template, second, on_target, difference, count);
     matching->assignment_seconds += own.Seconds();
-    for (CandidateMap& map :
-         StartAtLandmarks(first, second, on_template, on_target, assignments.best)) {
+    for (CandidateMap& map : StartAtLandmarks(first, second, on_template, on_target, assignments)) {
       starts.push_back(std::move(map));
     }
   };
@@ -262,8 +295,8 @@ std::vector<MapCandidate> Judge(const MatchingBody& first, const MatchingBody& s
     candidate.from_template = map.from_template;
     for (const auto& [a, b] : maps[i].assignment.pairs) {
       candidate.extremities.emplace_back(
-          (is_part ? first.inner_extremities : first.extremities)[a],
-          (is_part ? second.inner_extremities : second.extremities)[b]);
+          (is_part ? first.inner_extremities : first.all_extremities)[a],
+          (is_part ? second.inner_extremities : second.all_extremities)[b]);
     }
     candidates.push_back(std::move(candidate));
     admitted.push_back(std::move(map));
