@@ -47,7 +47,7 @@ constexpr size_t kMarkersTold = 40;
 
 // Candidates whose rough fit costs more than this many times as much as the cheapest are given up.
 // Of 26 pairs on which this was chosen the map that is the cheapest in the end had 1.4 times at
-// most, and those that end with less than 1.48 times its cost had 1.75.
+// most, and those that end with less than 1.48 times its cost had 1.75 at most.
 constexpr double kGivenUp = 2;
 
 // Candidates of a part are judged by fits of it with so many triangles, which find the same maps as
@@ -213,7 +213,8 @@ class Finder {
     std::vector<int> promising;
     for (const CandidateFit& fit : fits_) {
       rows_[fit.row].rough_cost = fit.Cost();
-      if (fit.Cost() < kGivenUp * fits_[0].Cost()) promising.push_back(static_cast<int>(fit.row));
+      if (fit.Cost() > kGivenUp * fits_[0].Cost()) continue;
+      promising.push_back(static_cast<int>(fit.row));
     }
     FitAll("candidates", promising,
            [&](int i, Progress* own) { return fit_candidate(i, own, Effort::kKeepFolds); });
