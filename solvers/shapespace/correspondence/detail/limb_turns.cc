@@ -199,13 +199,15 @@ std::optional<Shape> TurnedIfBetter(const Limb& limb, Shape shape, const Target&
   std::vector<Shape> turned;
   for (const double angle : {EIGEN_PI, -EIGEN_PI}) turned.push_back(limb.Turned(shape, angle));
   const double hopeless = kHopeless * fit.Begin(&shape);
-  turned.erase(std::remove_if(turned.begin(), turned.end(),
-                              [&](Shape& other) { return fit.Begin(&other) > hopeless; }),
-               turned.end());
-  if (turned.empty()) return std::nullopt;
+  std::vector<Shape> hopeful;
+  for (Shape& other : turned) {
+    if (fit.Begin(&other) > hopeless) continue;
+    hopeful.push_back(std::move(other));
+  }
+  if (hopeful.empty()) return std::nullopt;
   double least = kBetter * fit.End(&shape);
   std::optional<Shape> better;
-  for (Shape& other : turned) {
+  for (Shape& other : hopeful) {
     const double energy = fit.End(&other);
     if (energy > least) continue;
     least = energy;

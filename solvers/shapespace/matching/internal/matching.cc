@@ -188,7 +188,8 @@ std::vector<Assignment> AssignEnds(const MatchingBody& first, const Landmarks& o
                                    const Eigen::MatrixXd& difference, int count) {
   std::vector<Assignment> all;
   const size_t rows = first.extremities.size(), columns = second.extremities.size();
-  const auto add = [&](size_t from, size_t to, bool with_minor) {
+  const auto add = [&](size_t from, size_t to) {
+    const bool with_minor = from > rows || to > columns;
     for (Assignment& assignment :
          AssignExtremities({Distances(first, on_template, static_cast<int>(from)),
                             Distances(second, on_target, static_cast<int>(to)),
@@ -202,9 +203,9 @@ std::vector<Assignment> AssignEnds(const MatchingBody& first, const Landmarks& o
       if (has_minor == with_minor) all.push_back(std::move(assignment));
     }
   };
-  add(rows, columns, false);
-  add(rows, second.all_extremities.size(), true);
-  add(first.all_extremities.size(), columns, true);
+  add(rows, columns);
+  if (second.all_extremities.size() > columns) add(rows, second.all_extremities.size());
+  if (first.all_extremities.size() > rows) add(first.all_extremities.size(), columns);
   return all;
 }
 
