@@ -9,6 +9,7 @@
 #include "options.h"
 #include "pickling.h"
 #include "progress.h"
+#include "unlocked.h"
 
 namespace shapespace::python {
 namespace {
@@ -54,7 +55,7 @@ py::class_<FrozenMetric> BindMetric(py::module_* module) {
                mesh = MakePoses(ToShapes(poses, "poses"), faces);
                Warn(mesh.warnings);
              }
-             const py::gil_scoped_release unlocked;
+             const Unlocked unlocked;
              return FrozenMetric{FreezeMetric(options, mesh.connectivity, mesh.shapes, 0, which)};
            }),
            py::arg("poses"), py::arg("faces") = py::none(), py::kw_only(),

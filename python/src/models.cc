@@ -13,6 +13,7 @@
 #include "options.h"
 #include "pickling.h"
 #include "progress.h"
+#include "unlocked.h"
 
 namespace shapespace::python {
 namespace {
@@ -48,7 +49,7 @@ void BindModels(py::module_* module) {
   py::class_<ShapeModel, std::shared_ptr<ShapeModel>>(*module, "_ShapeModel")
       .def_static("read",
                   [](const std::filesystem::path& file) {
-                    const py::gil_scoped_release unlocked;
+                    const Unlocked unlocked;
                     return std::make_shared<ShapeModel>(ReadModes(file));
                   })
       .def("write", [](const ShapeModel& model,
@@ -56,7 +57,7 @@ void BindModels(py::module_* module) {
       .def(py::pickle([](const ShapeModel& model) { return Pack(model.Modes()); },
                       [](const py::bytes& bytes) {
                         auto modes = Unpack<PoseModes>(bytes);
-                        const py::gil_scoped_release unlocked;
+                        const Unlocked unlocked;
                         return std::make_shared<ShapeModel>(std::move(modes));
                       }))
       .def_property_readonly("names", [](const ShapeModel& model) { return model.Modes().names; })

@@ -21,6 +21,7 @@
 #include "options.h"
 #include "pickling.h"
 #include "progress.h"
+#include "unlocked.h"
 
 namespace shapespace::python {
 namespace {
@@ -95,7 +96,7 @@ void Write(const Path& path, const std::string& file, const py::dict& given) {
   }
   PathOutputSummary summary;
   {
-    const py::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     summary = WritePathOutput(output, path, options);
   }
   Warn(summary.warnings);
@@ -133,7 +134,7 @@ void BindFiles(py::class_<Path>* path) {
       .def_static(
           "read",
           [](const std::filesystem::path& file) {
-            const py::gil_scoped_release unlocked;
+            const Unlocked unlocked;
             return ReadPath(file);
           },
           py::arg("file"), "Reads a .path file.")

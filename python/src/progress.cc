@@ -12,6 +12,7 @@
 #include <pybind11/stl.h>
 
 #include "bind.h"
+#include "unlocked.h"
 
 namespace shapespace::python {
 namespace {
@@ -59,7 +60,7 @@ class Call final : public Progress {
   // time to look for signals. False if the call has ended. If the interpreter ends meanwhile, a
   // daemon thread must not run Python any more, so it waits here forever.
   bool Wait(std::optional<Told>* told) {
-    const py::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     std::unique_lock<std::mutex> lock(mutex_);
     changed_.wait_for(lock, kBetweenLooks, [this] { return told_ || ended_; });
     changed_.wait(lock, [this] { return !abandoned_; });
@@ -94,8 +95,10 @@ struct Running {
   Worker worker;
 };
 
-// Calls that have begun; guarded by the interpreter's lock.
+// Guarded by the interpreter's lock: calls that have begun, and whether the process ends, so that
+// no other may begin in a daemon thread.
 std::vector<Running> calls;
+bool ending = false;
 
 void ForgetThoseThatAreOver() {
   const auto over = [](const Running& running) {
@@ -116,22 +119,31 @@ std::vector<Worker> AbandonedWorkers() {
 // Before a fork: the child would have the locks that they hold, but not their threads.
 void WaitForAbandoned() {
   for (auto workers = AbandonedWorkers(); !workers.empty(); workers = AbandonedWorkers()) {
-    const py::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     for (const Worker& worker : workers) worker.wait();
   }
 }
 
 // Before the interpreter ends, and the process destroys what the workers use.
 void AbandonAll() {
+  ending = true;
   for (ForgetThoseThatAreOver(); !calls.empty(); ForgetThoseThatAreOver()) {
     for (const Running& running : calls) running.call->Abandon();
     WaitForAbandoned();
   }
 }
 
+bool IsInDaemonThread() {
+  return py::cast<bool>(py::module_::import("threading").attr("current_thread")().attr("daemon"));
+}
+
 }  // namespace
 
 void RunInWorker(const py::object& callback, std::function<void(Progress*)> work) {
+  if (ending && IsInDaemonThread()) {
+    const Unlocked unlocked;
+    WaitForever();
+  }
   const auto call = std::make_shared<Call>(!callback.is_none());
   const Worker worker = std::async(
       std::launch::async, [call, work = std::move(work), earlier = AbandonedWorkers()]() mutable {
@@ -149,7 +161,10 @@ void RunInWorker(const py::object& callback, std::function<void(Progress*)> work
     while (call->Wait(&told)) {
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
       if (!told) continue;
-      const py::object answer = callback(told->stage, told->done, told->total, told->share);
+      const auto arguments = py::make_tuple(told->stage, told->done, told->total, told->share);
+      const auto answer = py::reinterpret_steal<py::object>(EndsHereIfPythonEnds(
+          [&] { return PyObject_CallObject(callback.ptr(), arguments.ptr()); }));
+      if (!answer) throw py::error_already_set();
       call->Answer(!answer.is(py::bool_(false)));
     }
   } catch (...) {

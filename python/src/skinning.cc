@@ -16,6 +16,7 @@
 #include "options.h"
 #include "pickling.h"
 #include "progress.h"
+#include "unlocked.h"
 
 namespace shapespace::python {
 namespace {
@@ -81,7 +82,7 @@ void WriteSkinning(const SkinningResult& skinning, const std::filesystem::path& 
   Set(given, &options.gltf, {own});
   SkinnedGltfSummary summary;
   {
-    const py::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     summary = WriteSkinnedGltf(file, skinning.path, options);
   }
   Warn(summary.warnings);

@@ -18,6 +18,7 @@
 #include "options.h"
 #include "pickling.h"
 #include "progress.h"
+#include "unlocked.h"
 
 namespace shapespace::python {
 namespace {
@@ -53,7 +54,7 @@ poses, then the shapes found half way between nodes. `explore` makes it.
       .def_static(
           "read",
           [](const std::filesystem::path& file) {
-            const py::gil_scoped_release unlocked;
+            const Unlocked unlocked;
             return ReadSpace(file);
           },
           py::arg("file"), "Reads a .space file.")

@@ -144,16 +144,18 @@ CALLS = {
 }
 
 
-def in_process(triangles, begin, then=""):
+def in_process(triangles, begin, then="", first=""):
     """A process that does `begin`, with arguments for CALLS at hand, says so, and does `then`."""
     script = f"""
+{first}
 import itertools, multiprocessing, signal, time
 import numpy as np
 import shapespace
 signal.signal(signal.SIGINT, signal.default_int_handler)
 small = shapespace.skinned_body("quadruped", 1500)
-def solve(name):
-    return shapespace.interpolate([small.pose("sit"), small.pose(name)], small, shapes=1).path[1]
+def solve(name, progress=None):
+    poses = [small.pose("sit"), small.pose(name)]
+    return shapespace.interpolate(poses, small, shapes=1, progress=progress).path[1]
 body = shapespace.skinned_body("quadruped", {triangles})
 other = shapespace.skinned_body("quadruped", {triangles}, proportions="long").pose("sit")
 poses = shapespace.Poses([body.pose("sit"), body.pose("stretch")], body)
@@ -205,16 +207,41 @@ def test_a_process_may_end_while_an_abandoned_call_still_runs():
     assert error.splitlines()[-1] == "KeyboardInterrupt"
 
 
-@pytest.mark.parametrize("progress", ["None", "lambda *_: None"])
-def test_a_process_may_end_while_a_daemon_thread_calls(progress):
-    begin = f"""
-        import threading
-        def calls():
+@pytest.mark.parametrize(
+    "call",
+    [
+        "solve('stretch')",
+        "solve('stretch', lambda *_: None)",
+        # Lets others run Python meanwhile, as a callback does that writes to a terminal.
+        "solve('stretch', lambda *_: time.sleep(0.03))",
+        "shapespace.Metric(poses)",
+    ],
+)
+@pytest.mark.parametrize("slow", [0, 0.2])
+def test_a_process_may_end_while_daemon_threads_call(slow, call):
+    """Some have begun to before, others begin when it ends and the interpreter is still there."""
+    first = f"""
+import atexit, threading, time
+exiting = threading.Event()
+def exit():
+    exiting.set()
+    time.sleep({slow})
+class Last:
+    def __del__(self, sleep=time.sleep):
+        sleep({slow})
+atexit.register(exit)
+last = Last()
+"""
+    calls = f"""
+        def calls(waits):
+            if waits:
+                exiting.wait()
             while True:
-                shapespace.interpolate(poses, tolerance=1e-12, progress={progress})
-        threading.Thread(target=calls, daemon=True).start()
+                {call}
+        for waits in 3 * [False, True]:
+            threading.Thread(target=calls, args=[waits], daemon=True).start()
     """
-    process = in_process(4000, begin, "time.sleep(0.5)")
+    process = in_process(4000, calls, "time.sleep(0.3)", first)
     _, error = process.communicate(timeout=60)
     assert process.returncode == 0 and error == ""
 
