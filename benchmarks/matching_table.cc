@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <string>
 #include <utility>
@@ -178,6 +179,10 @@ void PrintFolder(const std::string& folder) {
   for (std::string source, target, truth; stream >> source >> target >> truth;) {
     if ((source + " " + target).find(FLAGS_name) == std::string::npos) continue;
     PrintPair(folder, source, target, truth, &sum);
+  }
+  if (sum.pairs == 0) {
+    std::fprintf(stderr, "%s/pairs.txt is missing, or names no such pair\n", folder.c_str());
+    std::exit(1);
   }
   const double found = sum.pairs - sum.none;
   std::printf(

@@ -21,6 +21,7 @@
 #include <shapespace/matching/detail/spectrum.h>
 #include <shapespace/matching/detail/surface_graph.h>
 #include <shapespace/matching/detail/turns.h>
+#include <shapespace/matching/detail/working_surface.h>
 #include <shapespace/matching/detail/zoomout.h>
 
 namespace shapespace::internal {
@@ -82,6 +83,34 @@ TEST(Spectrum, DoesNotDependOnTheMethodThatTheSizeSelects) {
   EXPECT_LT((whole.values.head(30) - few.values).cwiseAbs().maxCoeff(), 1e-6);
 }
 
+// Its vertices come first, and what is added lies on its edges.
+TEST(WorkingSurface, OfACoarseBodyIsTheSameSurfaceWithMoreTriangles) {
+  const SkinnedBody body = MakeQuadruped(1200);
+  const Shape shape = body.pose("sit");
+  const WorkingSurface surface = MakeWorkingSurface("template", *body.connectivity, shape, nullptr);
+  EXPECT_GE(surface.connectivity->NumTriangles(), 4000);
+  EXPECT_EQ(surface.num_own, body.connectivity->NumVertices());
+  const double scale = (surface.shape.col(1) - surface.shape.col(0)).norm() /
+                       (shape.col(surface.vertices[1]) - shape.col(surface.vertices[0])).norm();
+  const Eigen::VectorXd areas = MakeLaplacian(*surface.connectivity, surface.shape).areas;
+  EXPECT_NEAR(areas.sum(), 1, 1e-12);
+  EXPECT_NEAR(areas.sum(), scale * scale * MakeLaplacian(*body.connectivity, shape).areas.sum(),
+              1e-12);
+  double longest = 0;
+  for (const auto& edge : body.connectivity->Edges().colwise()) {
+    longest = std::max(longest, scale * (shape.col(edge(0)) - shape.col(edge(1))).norm());
+  }
+  for (int v = 0; v < surface.NumVertices(); ++v) {
+    const int own = surface.Own(v);
+    EXPECT_EQ(surface.vertices[own], surface.vertices[v]);
+    EXPECT_EQ(v < surface.num_own, own == v);
+    EXPECT_LE((surface.shape.col(v) - surface.shape.col(own)).norm(), longest);
+  }
+  const MatchingBody whole("template", *body.connectivity, shape, nullptr);
+  for (const int v : whole.even.vertices) EXPECT_LT(v, surface.num_own);
+  for (const int v : whole.all_extremities) EXPECT_LT(v, surface.num_own);
+}
+
 TEST(SurfaceGraph, DistancesOnASheetAreNearlyStraight) {
   const ShapeFamily sheet = MakeSheet(1, 1, 30, 30);
   for (const double angle : {0.0, 120.0}) {
@@ -122,7 +151,7 @@ TEST(FarthestPoints, CoverTheSurfaceEvenly) {
   const Shape shape = body.pose("stand");
   const SurfaceGraph graph(*body.connectivity, shape);
   const Laplacian laplacian = MakeLaplacian(*body.connectivity, shape);
-  const EvenSamples samples = SampleEvenly(graph, shape, laplacian.areas, 100);
+  const EvenSamples samples = SampleEvenly(graph, shape, laplacian.areas, 100, graph.NumVertices());
   ASSERT_EQ(samples.vertices.size(), 100);
   float apart = std::numeric_limits<float>::infinity();
   for (int i = 0; i < 100; ++i) {
@@ -140,7 +169,8 @@ TEST(Extremities, AreTheEndsOfAnAnimal) {
     const double unit = std::sqrt(laplacian.areas.sum());
     const Shape scaled = shape / unit;
     const SurfaceGraph graph(*body.connectivity, scaled);
-    const EvenSamples samples = SampleEvenly(graph, scaled, laplacian.areas, 200);
+    const EvenSamples samples =
+        SampleEvenly(graph, scaled, laplacian.areas, 200, graph.NumVertices());
     const auto found = FindExtremities(graph, samples, laplacian.areas, 0.02);
     const std::vector<int> ends = PrincipalExtremities(found);
     ASSERT_EQ(ends.size(), 6) << pose;

@@ -27,20 +27,20 @@ void LowerSquares(const float* rows, int dimensions, int count, const float* fro
 }  // namespace
 
 EvenSamples SampleEvenly(const SurfaceGraph& graph, const Shape& shape,
-                         const Eigen::VectorXd& areas, int count) {
+                         const Eigen::VectorXd& areas, int count, int among) {
   const Eigen::Vector3d centroid = shape * areas / areas.sum();
   Eigen::Index next;
   (shape.colwise() - centroid).colwise().squaredNorm().minCoeff(&next);
-  graph.From(static_cast<int>(next)).maxCoeff(&next);
+  graph.From(static_cast<int>(next)).head(among).maxCoeff(&next);
   EvenSamples samples;
-  samples.distances.resize(graph.NumVertices(), std::min(count, graph.NumVertices()));
+  samples.distances.resize(graph.NumVertices(), std::min(count, among));
   Eigen::VectorXf least =
       Eigen::VectorXf::Constant(graph.NumVertices(), std::numeric_limits<float>::infinity());
   for (int k = 0; k < samples.distances.cols() && least(next) > 0; ++k) {
     samples.vertices.push_back(static_cast<int>(next));
     samples.distances.col(k) = graph.From(static_cast<int>(next));
     least = least.cwiseMin(samples.distances.col(k));
-    least.maxCoeff(&next);
+    least.head(among).maxCoeff(&next);
   }
   samples.distances.conservativeResize(Eigen::NoChange, samples.vertices.size());
   return samples;

@@ -19,14 +19,15 @@ struct EvenSamples {
 /// So many are enough for what is found from distances: extremities, and whether maps differ.
 inline constexpr int kEvenSamples = 200;
 
-/// `count` of them, or as many as there are distinct places. The first is far from the vertex that
-/// is nearest to the centroid, for which `areas` are the weights. The surface must be connected.
+/// `count` of the first `among` vertices, or as many as there are distinct places. The first is far
+/// from the vertex that is nearest to the centroid, for which `areas` are the weights. The surface
+/// must be connected.
 EvenSamples SampleEvenly(const SurfaceGraph& graph, const Shape& shape,
-                         const Eigen::VectorXd& areas, int count);
+                         const Eigen::VectorXd& areas, int count, int among);
 
 /// The same for columns of a matrix, with the distances between them, beginning with column
 /// `first`. Of equal columns only one is taken.
-std::vector<int> FarthestColumns(const Eigen::MatrixXf& points, int first, int count);
+std::vector<int> FarthestColumns(const Eigen::MatrixXf& points, int first, int count, int among);
 
 }  // namespace shapespace::internal
 

@@ -15,6 +15,8 @@ constexpr size_t kMostMarkers = 40;
 // are; shares of the root of the area.
 constexpr float kRoundTrip = 0.02F;
 constexpr float kSpacing = 0.06F;
+// The ends of a head are nearer to each other than this, feet are not.
+constexpr float kNear = 0.3F;
 
 // On coarse meshes, where edges are longer than that, the way back may end at a neighbour: the
 // length of the edges of equal triangles of as many vertices.
@@ -26,8 +28,9 @@ float RoundTrip(const MatchingBody& body) {
 struct Ways {
   std::vector<int> there, back;
 
-  Ways(const AlignedPoints& points, const std::vector<int>& vertices)
-      : there(NearestColumns(Columns(points.on_template, vertices), points.on_target)),
+  Ways(const AlignedPoints& points, const std::vector<int>& vertices, int num_targets)
+      : there(NearestColumns(Columns(points.on_template, vertices),
+                             points.on_target.leftCols(num_targets))),
         back(NearestColumns(Columns(points.on_target, there), points.on_template)) {}
 
   static Eigen::MatrixXf Columns(const Eigen::MatrixXf& points, const std::vector<int>& which) {
@@ -69,10 +72,18 @@ class Chosen {
   VertexPairs pairs_;
 };
 
+// As the ears and the snout of a head are near each other.
+bool HasAnotherEndNear(const MatchingBody& body, int end) {
+  const Eigen::VectorXf distances = body.graph.From(end);
+  return std::any_of(body.all_extremities.begin(), body.all_extremities.end(),
+                     [&](int other) { return other != end && distances(other) < kNear; });
+}
+
 }  // namespace
 
-VertexPairs ChooseMarkers(const MatchingBody& on_template, const AlignedPoints& points,
-                          const VertexPairs& extremities, const VertexPairs& given,
+VertexPairs ChooseMarkers(const MatchingBody& on_template, const MatchingBody& on_target,
+                          const AlignedPoints& points, const VertexPairs& extremities,
+                          const VertexPairs& given,
                           const std::function<bool(int from, int to)>& admits) {
   const EvenSamples& even = on_template.even;
   const float round_trip = RoundTrip(on_template);
@@ -86,16 +97,21 @@ VertexPairs ChooseMarkers(const MatchingBody& on_template, const AlignedPoints& 
   }
   std::vector<int> ends;
   for (const auto& pair : extremities) ends.push_back(pair.first);
-  const Ways of_ends(points, ends);
+  const Ways of_ends(points, ends, on_target.surface.num_own);
   for (size_t i = 0; i < ends.size(); ++i) {
     const Eigen::VectorXf distances = on_template.graph.From(ends[i]);
-    // Where the map is vague, the end of a limb is at least on the right limb.
+    // Where the map is vague, the end of a limb is at least on the right limb; but an ear is no
+    // snout.
     const bool vague = distances(of_ends.back[i]) > round_trip;
+    if (vague && (HasAnotherEndNear(on_template, extremities[i].first) ||
+                  HasAnotherEndNear(on_target, extremities[i].second))) {
+      continue;
+    }
     const int to = vague ? extremities[i].second : of_ends.there[i];
     if (is_given(ends[i]) || !admits(ends[i], to) || chosen.HasTarget(to)) continue;
     chosen.Add(ends[i], to, distances);
   }
-  const Ways ways(points, even.vertices);
+  const Ways ways(points, even.vertices, on_target.surface.num_own);
   std::vector<bool> possible(even.vertices.size());
   for (size_t i = 0; i < possible.size(); ++i) {
     possible[i] =

@@ -21,8 +21,9 @@ using VertexPairs = std::vector<std::pair<int, int>>;
 /// too. At most 40, farther than 0.06 from the pairs `given`, which are not part of the result; the
 /// even samples are so far from all others too. `points` has a column for each vertex of each body.
 /// `admits(from, to)` says whether a pair may be a marker.
-VertexPairs ChooseMarkers(const MatchingBody& on_template, const AlignedPoints& points,
-                          const VertexPairs& extremities, const VertexPairs& given,
+VertexPairs ChooseMarkers(const MatchingBody& on_template, const MatchingBody& on_target,
+                          const AlignedPoints& points, const VertexPairs& extremities,
+                          const VertexPairs& given,
                           const std::function<bool(int from, int to)>& admits);
 
 }  // namespace shapespace::internal

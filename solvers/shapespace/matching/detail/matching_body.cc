@@ -40,10 +40,11 @@ MatchingBody::MatchingBody(const std::string& name, const Connectivity& connecti
   ReportProgress(progress, "eigenfunctions of the " + name, 0, 0);
   spectrum = ComputeSpectrum(laplacian, kFunctions);
   ReportProgress(progress, "distances on the " + name, 0, 0);
-  even = SampleEvenly(graph, surface.shape, laplacian.areas, kEvenSamples);
+  even = SampleEvenly(graph, surface.shape, laplacian.areas, kEvenSamples, surface.num_own);
   ReportProgress(progress, "extremities of the " + name, 0, 0);
   spread = SpreadVertices(spectrum, even.vertices.front());
   std::vector<Extremity> all = FindExtremities(graph, even, laplacian.areas, kLeastPersistence);
+  for (Extremity& end : all) end.vertex = surface.Own(end.vertex);
   extremities = PrincipalExtremities(all);
   all_extremities = extremities;
   for (const int v : MinorExtremities(all)) all_extremities.push_back(v);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include <shapespace/base/error.h>
@@ -18,6 +19,9 @@ namespace {
 // With 10000 triangles, the functions that are used (at most 100) have some 50 vertices for each
 // of their waves.
 constexpr int kDecimated = 10000;
+// With fewer, maps go astray at heads and feet, which have too few vertices. Cut triangles help if
+// there are so many then.
+constexpr int kFewestTriangles = 4000;
 
 // The vertices of the component whose area is largest; of equal ones, the one with the vertex of
 // the smallest number.
@@ -35,6 +39,33 @@ std::vector<bool> LargestComponent(const Eigen::Matrix3Xi& triangles, const Eige
   std::vector<bool> members(num_vertices);
   for (int v = 0; v < num_vertices; ++v) members[v] = components.Find(v) == largest;
   return members;
+}
+
+// Cuts each triangle into four at the midpoints of its edges, which follow the other vertices.
+void CutTriangles(WorkingSurface* surface) {
+  const Connectivity& before = *surface->connectivity;
+  const int count = before.NumVertices() + before.NumEdges();
+  surface->shape.conservativeResize(Eigen::NoChange, count);
+  std::map<std::pair<int, int>, int> midpoints;
+  for (const auto& edge : before.Edges().colwise()) {
+    const auto midpoint = static_cast<int>(surface->vertices.size());
+    midpoints[{edge(0), edge(1)}] = midpoint;
+    surface->shape.col(midpoint) = (surface->shape.col(edge(0)) + surface->shape.col(edge(1))) / 2;
+    surface->vertices.push_back(surface->vertices[edge(0)]);
+  }
+  Eigen::Matrix3Xi triangles(3, 4 * before.NumTriangles());
+  for (int f = 0; f < before.NumTriangles(); ++f) {
+    const Eigen::Vector3i corners = before.Triangles().col(f);
+    Eigen::Vector3i middle;
+    for (int i = 0; i < 3; ++i) {
+      middle(i) = midpoints.at(std::minmax({corners(i), corners((i + 1) % 3)}));
+    }
+    for (int i = 0; i < 3; ++i) {
+      triangles.col(4 * f + i) << corners(i), middle(i), middle((i + 2) % 3);
+    }
+    triangles.col(4 * f + 3) = middle;
+  }
+  surface->connectivity = Connectivity::FromTriangles(count, triangles);
 }
 
 void ScaleToAreaOne(const Connectivity& connectivity, Shape* shape) {
@@ -81,6 +112,9 @@ WorkingSurface MakeWorkingSurface(const std::string& name, const Connectivity& c
     for (const int v : kept) vertices.push_back(surface.vertices[v]);
     surface.vertices = std::move(vertices);
   }
+  surface.num_own = surface.NumVertices();
+  const int triangles = surface.connectivity->NumTriangles();
+  if (triangles < kFewestTriangles && 4 * triangles >= kFewestTriangles) CutTriangles(&surface);
   connectivity.CopyToTwins(&surface.nearest);
   ScaleToAreaOne(*surface.connectivity, &surface.shape);
   return surface;

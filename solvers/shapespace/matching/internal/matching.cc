@@ -90,8 +90,8 @@ std::vector<int> OnSurfaces(const std::vector<int>& map, const WorkingSurface& o
 }
 
 std::string TooFewVertices(const std::string& name, const MatchingBody& body) {
-  if (body.surface.NumVertices() >= kFewestVertices) return {};
-  return "the " + name + " has " + std::to_string(body.surface.NumVertices()) +
+  if (body.surface.num_own >= kFewestVertices) return {};
+  return "the " + name + " has " + std::to_string(body.surface.num_own) +
          " vertices in its largest component; at least " + std::to_string(kFewestVertices) +
          " are needed";
 }
@@ -157,10 +157,10 @@ VertexPairs AllMarkers(const MatchingBody& on_template, const MatchingBody& on_t
   // Those of a part are spread over the part, away from its border.
   const VertexPairs found = InBodies(
       directions == Directions::kBoth
-          ? ChooseMarkers(on_template, points, extremities, known, admits)
+          ? ChooseMarkers(on_template, on_target, points, extremities, known, admits)
           : Swapped(ChooseMarkers(
-                on_target, {points.on_target, points.on_template}, Swapped(extremities),
-                Swapped(known),
+                on_target, on_template, {points.on_target, points.on_template},
+                Swapped(extremities), Swapped(known),
                 [&](int from, int to) { return on_target.IsInner(from) && admits(to, from); })),
       on_template.surface, on_target.surface);
   VertexPairs all = given;
@@ -476,7 +476,8 @@ std::vector<LimbEnd> FindLimbEnds(const Connectivity& connectivity, const Shape&
   const WorkingSurface surface = MakeWorkingSurface("template", connectivity, shape, nullptr);
   const SurfaceGraph on_surface(*surface.connectivity, surface.shape);
   const Eigen::VectorXd areas = MakeLaplacian(*surface.connectivity, surface.shape).areas;
-  const EvenSamples even = SampleEvenly(on_surface, surface.shape, areas, kEvenSamples);
+  const EvenSamples even =
+      SampleEvenly(on_surface, surface.shape, areas, kEvenSamples, surface.num_own);
   const SurfaceGraph graph(connectivity, shape);
   std::vector<LimbEnd> ends;
   for (const int v :
