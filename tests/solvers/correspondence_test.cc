@@ -113,30 +113,28 @@ TEST(Correspond, FindsWithoutMarkersWhatOnlyTheReverseFitReaches) {
   EXPECT_LT(bodies.Errors(result.map).maxCoeff(), 8 * bodies.Edge());
 }
 
-Shape RandomAnimal(int triangles, unsigned seed) {
-  return MakeQuadruped(triangles, RandomQuadrupedForm({}, seed)).random_pose(seed);
+// Of random animals with the seeds of each pair, the first onto the second.
+void ExpectFoundWithoutMarkers(const std::vector<std::pair<unsigned, unsigned>>& seeds) {
+  const Remeshed bodies;
+  const auto animal = [](int triangles, unsigned seed) {
+    return MakeQuadruped(triangles, RandomQuadrupedForm({}, seed)).random_pose(seed);
+  };
+  for (const auto& [one, other] : seeds) {
+    const CorrespondenceResult result =
+        Correspond(bodies.first.connectivity, animal(2400, one), bodies.second.connectivity,
+                   animal(3300, other), {});
+    EXPECT_LT(bodies.Errors(result.map).mean(), bodies.Edge()) << one;
+  }
 }
 
 // Of some animals the snout sticks out most of the head, of others an ear, and the other less.
 TEST(Correspond, FindsWithoutMarkersTheSnoutBesideAnEar) {
-  const Remeshed bodies;
-  for (const auto& [one, other] : {std::pair(303, 310), std::pair(101, 108)}) {
-    const CorrespondenceResult result =
-        Correspond(bodies.first.connectivity, RandomAnimal(2400, one), bodies.second.connectivity,
-                   RandomAnimal(3300, other), {});
-    EXPECT_LT(bodies.Errors(result.map).mean(), bodies.Edge()) << one;
-  }
+  ExpectFoundWithoutMarkers({{303, 310}, {101, 108}});
 }
 
 // On so few triangles the first of them lost a leg, and the ear of the second became a snout.
 TEST(Correspond, FindsWithoutMarkersCoarseAnimals) {
-  const Remeshed bodies;
-  for (const auto& [one, other] : {std::pair(303, 308), std::pair(112, 105)}) {
-    const CorrespondenceResult result =
-        Correspond(bodies.first.connectivity, RandomAnimal(2400, one), bodies.second.connectivity,
-                   RandomAnimal(3300, other), {});
-    EXPECT_LT(bodies.Errors(result.map).mean(), bodies.Edge()) << one;
-  }
+  ExpectFoundWithoutMarkers({{303, 308}, {112, 105}});
 }
 
 // Each map of an animal to a bar is nonsense, which is said. Triangles collapse between the markers

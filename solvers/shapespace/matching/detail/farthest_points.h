@@ -27,7 +27,7 @@ EvenSamples SampleEvenly(const SurfaceGraph& graph, const Shape& shape,
 
 /// The same for columns of a matrix, with the distances between them, beginning with column
 /// `first`. Of equal columns only one is taken.
-std::vector<int> FarthestColumns(const Eigen::MatrixXf& points, int first, int count, int among);
+std::vector<int> FarthestColumns(const Eigen::MatrixXf& points, int first, int count);
 
 }  // namespace shapespace::internal
 

@@ -72,9 +72,8 @@ class Chosen {
   VertexPairs pairs_;
 };
 
-// As the ears and the snout of a head are near each other.
-bool HasAnotherEndNear(const MatchingBody& body, int end) {
-  const Eigen::VectorXf distances = body.graph.From(end);
+// As the ears and the snout of a head are near each other. `distances` are those from the end.
+bool HasAnotherEndNear(const MatchingBody& body, int end, const Eigen::VectorXf& distances) {
   return std::any_of(body.all_extremities.begin(), body.all_extremities.end(),
                      [&](int other) { return other != end && distances(other) < kNear; });
 }
@@ -103,11 +102,11 @@ VertexPairs ChooseMarkers(const MatchingBody& on_template, const MatchingBody& o
     // Where the map is vague, the end of a limb is at least on the right limb; but an ear is no
     // snout.
     const bool vague = distances(of_ends.back[i]) > round_trip;
-    if (vague && (HasAnotherEndNear(on_template, extremities[i].first) ||
-                  HasAnotherEndNear(on_target, extremities[i].second))) {
+    const int to = vague ? extremities[i].second : of_ends.there[i];
+    if (vague && (HasAnotherEndNear(on_template, ends[i], distances) ||
+                  HasAnotherEndNear(on_target, to, on_target.graph.From(to)))) {
       continue;
     }
-    const int to = vague ? extremities[i].second : of_ends.there[i];
     if (is_given(ends[i]) || !admits(ends[i], to) || chosen.HasTarget(to)) continue;
     chosen.Add(ends[i], to, distances);
   }
