@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
 #include <string>
 #include <utility>
@@ -16,6 +17,7 @@
 #include <shapespace/matching/detail/matching_body.h>
 #include <shapespace/matching/detail/part_maps.h>
 #include <shapespace/matching/internal/matching.h>
+#include <shapespace/mesh/surface.h>
 
 #include "bodies/measure.h"
 #include "support/message_of.h"
@@ -30,30 +32,39 @@ namespace {
 
 using testing::Part;
 
+using Keep = std::function<bool(const Eigen::Vector3d& place, const Eigen::Vector3d& normal)>;
+
 // The triangles of a body all of whose corners are kept where it stands, in `shape`.
-template <typename Keep>
 Part PartOf(const SkinnedBody& body, const Shape& shape, const Keep& keep) {
-  const Shape rest = body.pose("stand");
+  const Shape rest = body.pose("stand"), normals = VertexNormals(*body.connectivity, rest);
   return testing::PartOf(*body.connectivity, shape, [&](int f) {
-    const auto t = body.connectivity->Triangles().col(f);
-    return keep(rest.col(t(0))) && keep(rest.col(t(1))) && keep(rest.col(t(2)));
+    const auto corners = body.connectivity->Triangles().col(f);
+    return std::all_of(corners.begin(), corners.end(),
+                       [&](int v) { return keep(rest.col(v), normals.col(v)); });
   });
 }
 
-// An animal that stands, and another mesh of it in a pose, without the hind legs, the tail, and
-// what is between them: 30 % of the area.
+constexpr double kCut = -0.25;
+// Without the hind legs, the tail, and what is between them: 30 % of the area is cut off.
+bool IsInFront(const Eigen::Vector3d& place, const Eigen::Vector3d&) { return place.z() > kCut; }
+// About what is seen from one side: the ends of all limbs are on the border.
+bool IsSeen(const Eigen::Vector3d& place, const Eigen::Vector3d& normal) {
+  return place.x() > 0 && normal.x() > 0.1;
+}
+
+// An animal that stands, and a part of another mesh of it in a pose.
 struct CutAnimal {
   SkinnedBody body;
   Shape rest;
   Part part;
   Shape places;  // of each vertex of the part, its place on the template
 
-  explicit CutAnimal(const std::string& pose = "stride", double noise = 0.002)
+  explicit CutAnimal(const std::string& pose = "stride", double noise = 0.002,
+                     const Keep& keep = IsInFront)
       : body(MakeQuadruped(3000)), rest(body.pose("stand")) {
     const SkinnedBody other = MakeQuadruped(4000);
     const Shape shape = other.pose(pose);
-    part = PartOf(other, shape + testing::Noise(static_cast<int>(shape.cols()), noise, 5),
-                  [](const Eigen::Vector3d& p) { return p.z() > kCut; });
+    part = PartOf(other, shape + testing::Noise(static_cast<int>(shape.cols()), noise, 5), keep);
     places = other.pose("stand")(Eigen::all, part.vertices);
   }
 
@@ -103,8 +114,6 @@ struct CutAnimal {
     }
     return sum / count / std::sqrt(Area(*body.connectivity, rest));
   }
-
-  static constexpr double kCut = -0.25;
 };
 
 TEST(SurfaceBorder, HasTheLengthOfItsLongestPart) {
@@ -132,8 +141,9 @@ TEST(Part, HasALongBorderThatTheTemplateHasNot) {
     Eigen::Index at;
     (rest.colwise() - Eigen::Vector3d(0, 2, 0)).colwise().squaredNorm().minCoeff(&at);
     return PartOf(animal.body, rest,
-                  [&, centre = Eigen::Vector3d(rest.col(at))](const Eigen::Vector3d& p) {
-                    return (p - centre).norm() > radius;
+                  [&, centre = Eigen::Vector3d(rest.col(at))](const Eigen::Vector3d& place,
+                                                              const Eigen::Vector3d&) {
+                    return (place - centre).norm() > radius;
                   });
   };
   const double unit = std::sqrt(Area(*animal.body.connectivity, rest));
@@ -153,12 +163,22 @@ TEST(Part, ExtremitiesOnItsBorderAreNone) {
   ASSERT_GE(body.inner_extremities.size(), 3u);
   EXPECT_NE(body.extremities, body.inner_extremities);
   for (const int v : body.inner_extremities) {
-    EXPECT_GT(animal.places(2, body.surface.vertices[v]), CutAnimal::kCut + 0.1);
+    EXPECT_GT(animal.places(2, body.surface.vertices[v]), kCut + 0.1);
+  }
+  // They are behind the others, as what may be the end of a limb that is cut lengthwise.
+  ASSERT_GT(body.part_extremities.size(), body.inner_extremities.size());
+  for (size_t i = 0; i < body.part_extremities.size(); ++i) {
+    const bool is_inner = i < body.inner_extremities.size();
+    EXPECT_EQ(body.from_border(body.part_extremities[i]) > 0.04F, is_inner) << i;
+    if (is_inner) {
+      EXPECT_EQ(body.part_extremities[i], body.inner_extremities[i]);
+    }
   }
   // Near the border neither curvature nor heat is that of the body.
   for (const int v : body.border.vertices) EXPECT_FALSE(body.IsInner(v));
   const MatchingBody whole("template", *animal.body.connectivity, animal.rest, nullptr);
   EXPECT_EQ(whole.extremities, whole.inner_extremities);
+  EXPECT_EQ(whole.extremities, whole.part_extremities);
   EXPECT_TRUE(whole.IsInner(0));
 }
 
@@ -180,23 +200,32 @@ TEST(Part, ItsScaleIsTheRootOfItsShare) {
   EXPECT_NEAR(RelativeScale(whole, part, right), std::sqrt(share), 0.03);
 }
 
+// The least error of the markers of any candidate.
+double LeastError(const CutAnimal& animal) {
+  const Matching matching = animal.Match().FindCandidates();
+  EXPECT_FALSE(matching.candidates.empty()) << matching.problem;
+  double least = 1;
+  for (const MapCandidate& candidate : matching.candidates) {
+    EXPECT_GT(candidate.markers.size(), 10u);
+    least = std::min(least, animal.Error(candidate.markers));
+  }
+  return least;
+}
+
 // One of the candidates is right, under any motion and size of the target.
 TEST(Part, IsFoundOnTheWholeBody) {
   CutAnimal animal;
+  EXPECT_LT(LeastError(animal), 0.06);
   const Eigen::Matrix3d turn(Eigen::AngleAxisd(2, Eigen::Vector3d(1, 2, 3).normalized()));
-  const Shape still = animal.part.shape;
-  for (const bool moved : {false, true}) {
-    if (moved) animal.part.shape = 30 * turn * still;
-    const SurfaceMatcher matcher = animal.Match();
-    const Matching matching = matcher.FindCandidates();
-    ASSERT_FALSE(matching.candidates.empty()) << matching.problem;
-    double least = 1;
-    for (const MapCandidate& candidate : matching.candidates) {
-      ASSERT_GT(candidate.markers.size(), 10u);
-      least = std::min(least, animal.Error(candidate.markers));
-    }
-    EXPECT_LT(least, 0.06) << moved;
-  }
+  animal.part.shape = 30 * turn * animal.part.shape;
+  EXPECT_LT(LeastError(animal), 0.06);
+}
+
+// The ends of limbs are on the border.
+TEST(Part, IsFoundIfSeenFromOneSide) {
+  const CutAnimal seen("stride", 0.002, IsSeen);
+  EXPECT_TRUE(seen.Match().TargetIsPart());
+  EXPECT_LT(LeastError(seen), 0.06);
 }
 
 TEST(Part, IsFoundInTheSameWayOnAnyThreads) {
@@ -294,6 +323,26 @@ TEST(Correspond, FindsWhereAPartBelongs) {
     EXPECT_TRUE(testing::Names(report, {"lacks a part"}));
     EXPECT_FALSE(testing::HasWord(report, "much deformed")) << report;
   }
+}
+
+// Of an animal that is seen from one side two markers that lie far apart tell the rest. The user
+// is told that so little of the body is seldom enough.
+TEST(Correspond, FindsABodySeenFromOneSideWithTwoMarkers) {
+  const CutAnimal animal("stride", 0.002, IsSeen);
+  const std::vector<int> images = animal.Images();
+  std::vector<CorrespondenceMarker> markers;
+  for (const Eigen::Vector3d& way : {Eigen::Vector3d(0, -1, 1), Eigen::Vector3d(0, 1, -1)}) {
+    Eigen::Index to;
+    (way.transpose() * animal.places).maxCoeff(&to);
+    markers.push_back({images[to], static_cast<int>(to), false});
+  }
+  const CorrespondenceResult result = Correspond(
+      animal.body.connectivity, animal.rest, animal.part.connectivity, animal.part.shape, markers);
+  const Shape found =
+      PullBack(result.map.to_template, animal.body.connectivity->Triangles(), animal.rest);
+  EXPECT_LT(animal.Error(found), 0.03) << result.summary.FullReport();
+  EXPECT_NEAR(result.summary.scale, 1, 0.1);
+  EXPECT_TRUE(testing::Names(result.summary.FullReport(), {"shows"}));
 }
 
 }  // namespace

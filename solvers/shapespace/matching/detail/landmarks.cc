@@ -48,7 +48,13 @@ Landmarks::Landmarks(const MatchingBody& body, std::vector<int> vertices)
   }
 }
 
-Eigen::MatrixXd Landmarks::Between(int rows) const { return between_.topRows(rows).cast<double>(); }
+Eigen::MatrixXd Landmarks::Between(int count, size_t extremities) const {
+  const Eigen::Index behind = between_.cols() - static_cast<Eigen::Index>(extremities);
+  Eigen::MatrixXd distances(count, count + behind);
+  distances << between_.topLeftCorner(count, count).cast<double>(),
+      between_.topRightCorner(count, behind).cast<double>();
+  return distances;
+}
 
 Eigen::MatrixXf Landmarks::Describe(const std::vector<int>& chosen) const {
   const auto count = static_cast<int>(chosen.size());

@@ -17,8 +17,9 @@ class Landmarks {
 
   const std::vector<int>& Vertices() const { return vertices_; }
 
-  /// Distances between the first `rows` landmarks and all of them.
-  Eigen::MatrixXd Between(int rows) const;
+  /// Distances of the first `count` landmarks (rows) from each other, and from those behind the
+  /// first `extremities`.
+  Eigen::MatrixXd Between(int count, size_t extremities) const;
 
   /// A column for each vertex of body.spread: its distances d_i from the landmarks `chosen`, as
   /// shares of the mean distance of landmark i from the others, and the smoothed turns

@@ -12,7 +12,7 @@ constexpr int kSpread = 1500;
 constexpr int kSpreadFunctions = 40;
 // Functions that remain of what is smoothed.
 constexpr int kSmooth = 60;
-// An extremity nearer to the border is the far corner of a cut, not the end of a limb.
+// An extremity nearer to the border may be the far corner of a cut, not the end of a limb.
 constexpr float kCutOff = 0.04F;
 // Heat of the time by which bodies are compared spreads over 0.05 (`CompareBodies`).
 constexpr float kBesideBorder = 0.06F;
@@ -54,6 +54,10 @@ MatchingBody::MatchingBody(const std::string& name, const Connectivity& connecti
                      [&](const Extremity& end) { return from_border(end.vertex) <= kCutOff; }),
       all.end());
   inner_extremities = PrincipalExtremities(all);
+  part_extremities = inner_extremities;
+  for (const int v : extremities) {
+    if (from_border(v) <= kCutOff) part_extremities.push_back(v);
+  }
 }
 
 Eigen::MatrixXf MatchingBody::Smooth(const Eigen::MatrixXf& field,

@@ -47,6 +47,9 @@ struct MatchingBody {
   Eigen::VectorXf from_border;  ///< of each vertex, its distance; infinite if there is no border
   /// The principal ones among extremities that are not where something is cut off.
   std::vector<int> inner_extremities;
+  /// These, and behind them the principal ones that are on the border: corners of a cut, or ends of
+  /// limbs that are cut lengthwise or seen from one side.
+  std::vector<int> part_extremities;
 };
 
 }  // namespace shapespace::internal

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
 #include <utility>
 
 #include <shapespace/base/parallel.h>
@@ -13,10 +14,10 @@ namespace shapespace::internal {
 namespace {
 
 // The target has between this share of the template's area and all of it; as many scales are tried.
-constexpr double kLeastPart = 0.45;
-constexpr int kScales = 9;
+constexpr double kLeastPart = 0.2;
+constexpr int kScales = 13;
 // What a map may take for its scale. A little more than all allows for other proportions.
-constexpr double kLeastScale = 0.65, kGreatestScale = 1.05;
+constexpr double kLeastScale = 0.42, kGreatestScale = 1.05;
 // Until then heat around the end of a limb has not come to where the limb may be cut off.
 constexpr double kLocalTime = 0.08;
 // Vertices that determine a map, and those that do in its refinement.
@@ -76,30 +77,43 @@ std::vector<ScaledAssignment> AssignAtScales(const MatchingBody& on_template,
                                              const MatchingBody& on_target,
                                              const Landmarks& target_landmarks,
                                              const Eigen::MatrixXd& difference, int count) {
-  const std::vector<int>&first = on_template.inner_extremities,
-        &second = on_target.inner_extremities;
-  std::map<std::vector<std::pair<int, int>>, ScaledAssignment> best;
-  for (int k = 0; k < kScales; ++k) {
-    const double scale = std::sqrt(kLeastPart + (1 - kLeastPart) * k / (kScales - 1));
-    const Assignments assignments = AssignExtremities(
-        {template_landmarks.Between(static_cast<int>(first.size())),
-         scale * target_landmarks.Between(static_cast<int>(second.size())),
-         difference + HeatDifference(on_template.spectrum, first, on_target.spectrum, second,
-                                     kLocalTime, scale)},
-        count, kFewestOfAPart);
-    for (const Assignment& assignment : assignments.best) {
-      const auto [found, is_new] = best.try_emplace(assignment.pairs);
-      if (!is_new && found->second.assignment.cost <= assignment.cost) continue;
-      found->second = {assignment, scale};
+  const std::vector<int>& first = on_template.inner_extremities;
+  const Eigen::MatrixXd before =
+      template_landmarks.Between(static_cast<int>(first.size()), first.size());
+  const auto inner = static_cast<int>(on_target.inner_extremities.size()),
+             all = static_cast<int>(on_target.part_extremities.size());
+  const auto is_on_border = [&](const auto& pair) { return pair.second >= inner; };
+  std::vector<ScaledAssignment> result;
+  for (const int ends : std::set<int>{inner, all}) {
+    const Eigen::MatrixXd after = target_landmarks.Between(ends, all);
+    if (after.cols() < kFewestOfAPart) continue;
+    std::map<std::vector<std::pair<int, int>>, ScaledAssignment> best;
+    for (int k = 0; k < kScales; ++k) {
+      const double scale = std::sqrt(kLeastPart + (1 - kLeastPart) * k / (kScales - 1));
+      // Of an end on the border heat tells nothing.
+      Eigen::MatrixXd unlike = difference.leftCols(ends);
+      unlike.leftCols(inner) += HeatDifference(on_template.spectrum, first, on_target.spectrum,
+                                               on_target.inner_extremities, kLocalTime, scale);
+      for (const Assignment& assignment :
+           AssignExtremities({before, scale * after, unlike}, count, kFewestOfAPart).best) {
+        if (ends > inner &&
+            std::none_of(assignment.pairs.begin(), assignment.pairs.end(), is_on_border)) {
+          continue;
+        }
+        const auto [found, is_new] = best.try_emplace(assignment.pairs);
+        if (!is_new && found->second.assignment.cost <= assignment.cost) continue;
+        found->second = {assignment, scale};
+      }
     }
+    std::vector<ScaledAssignment> own;
+    for (auto& entry : best) own.push_back(std::move(entry.second));
+    std::stable_sort(own.begin(), own.end(), [](const auto& a, const auto& b) {
+      return a.assignment.cost < b.assignment.cost;
+    });
+    own.resize(std::min<size_t>(own.size(), count));
+    result.insert(result.end(), own.begin(), own.end());
   }
-  std::vector<ScaledAssignment> all;
-  for (auto& entry : best) all.push_back(std::move(entry.second));
-  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
-    return a.assignment.cost < b.assignment.cost;
-  });
-  all.resize(std::min<size_t>(all.size(), count));
-  return all;
+  return result;
 }
 
 std::vector<CandidateMap> MakePartMaps(const MatchingBody& on_template,
@@ -120,7 +134,7 @@ std::vector<CandidateMap> MakePartMaps(const MatchingBody& on_template,
     candidate.map.scale = assignments[i].scale;
     const auto [a, b] =
         DescribeBoth(template_landmarks, static_cast<int>(on_template.inner_extremities.size()),
-                     target_landmarks, static_cast<int>(on_target.inner_extremities.size()),
+                     target_landmarks, static_cast<int>(on_target.part_extremities.size()),
                      candidate.assignment);
     candidate.map.to_template = NearestColumns(b.leftCols(second.NumSamples()), a);
     for (const std::vector<int>* counts : {&kPartCoarse, &kPartFine}) {

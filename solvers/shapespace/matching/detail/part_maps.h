@@ -19,9 +19,11 @@ namespace shapespace::internal {
 /// right assignment.
 inline constexpr int kFewestOfAPart = 2;
 
-/// Assignments of the target's inner extremities to the template's, with which the distances agree
-/// under any of several scales: at most `count`, cheapest first. Known pairs are landmarks too.
-/// `difference` is added to how different extremities are (template x target).
+/// Assignments of the target's extremities to the template's inner ones, with which the distances
+/// agree under any of several scales: at most `count` of its inner ones alone, then at most `count`
+/// with one or more on its border (MatchingBody::part_extremities), each cheapest first. Known
+/// pairs are landmarks too. `difference` is added to how different extremities are (template x
+/// target).
 struct ScaledAssignment {
   Assignment assignment;
   double scale = 1;

@@ -172,15 +172,6 @@ bool HasLandmarks(const MatchingBody& body, size_t known) {
   return body.extremities.size() + known >= kFewestLandmarks;
 }
 
-// Distances of the first `count` of a body's extremities from each other and from the known points
-// behind all extremities.
-Eigen::MatrixXd Distances(const MatchingBody& body, const Landmarks& landmarks, int count) {
-  const Eigen::MatrixXd all = landmarks.Between(count);
-  Eigen::MatrixXd distances(count, count + all.cols() - body.all_extremities.size());
-  distances << all.leftCols(count), all.rightCols(distances.cols() - count);
-  return distances;
-}
-
 // The best assignments of principal extremities, and those in which one is what sticks out less of
 // the other body: a snout beside long ears.
 std::vector<Assignment> AssignEnds(const MatchingBody& first, const Landmarks& on_template,
@@ -191,10 +182,11 @@ std::vector<Assignment> AssignEnds(const MatchingBody& first, const Landmarks& o
   const auto add = [&](size_t from, size_t to) {
     const bool with_minor = from > rows || to > columns;
     for (Assignment& assignment :
-         AssignExtremities({Distances(first, on_template, static_cast<int>(from)),
-                            Distances(second, on_target, static_cast<int>(to)),
-                            difference.topLeftCorner(from, to)},
-                           count, kFewestLandmarks)
+         AssignExtremities(
+             {on_template.Between(static_cast<int>(from), first.all_extremities.size()),
+              on_target.Between(static_cast<int>(to), second.all_extremities.size()),
+              difference.topLeftCorner(from, to)},
+             count, kFewestLandmarks)
              .best) {
       const bool has_minor =
           std::any_of(assignment.pairs.begin(), assignment.pairs.end(), [&](const auto& pair) {
@@ -249,11 +241,11 @@ std::vector<CandidateMap> FindPartMaps(const MatchingBody& first, const Matching
                                        Matching* matching) {
   Stopwatch stopwatch;
   ReportProgress(progress, "extremities", 0, 0);
-  const KnownEnds ends(first, first.inner_extremities, second, second.inner_extremities, known);
+  const KnownEnds ends(first, first.inner_extremities, second, second.part_extremities, known);
   const Landmarks on_template =
       WithKnown(first, first.inner_extremities, ends.landmarks, &std::pair<int, int>::first);
   const Landmarks on_target =
-      WithKnown(second, second.inner_extremities, ends.landmarks, &std::pair<int, int>::second);
+      WithKnown(second, second.part_extremities, ends.landmarks, &std::pair<int, int>::second);
   const std::vector<ScaledAssignment> assignments =
       AssignAtScales(first, on_template, second, on_target, ends.difference, count);
   matching->assignment_seconds = stopwatch.Seconds();
@@ -297,7 +289,7 @@ std::vector<MapCandidate> Judge(const MatchingBody& first, const MatchingBody& s
     for (const auto& [a, b] : maps[i].assignment.pairs) {
       candidate.extremities.emplace_back(
           (is_part ? first.inner_extremities : first.all_extremities)[a],
-          (is_part ? second.inner_extremities : second.all_extremities)[b]);
+          (is_part ? second.part_extremities : second.all_extremities)[b]);
     }
     candidates.push_back(std::move(candidate));
     admitted.push_back(std::move(map));
@@ -354,7 +346,7 @@ SurfaceMatcher::~SurfaceMatcher() = default;
 
 bool SurfaceMatcher::TargetIsPart() const {
   return target_->IsOpen() && !template_->IsOpen() &&
-         target_->inner_extremities.size() >= kFewestOfAPart &&
+         target_->part_extremities.size() >= kFewestOfAPart &&
          template_->inner_extremities.size() >= kFewestOfAPart;
 }
 
@@ -367,7 +359,7 @@ Matching SurfaceMatcher::FindCandidates(const std::vector<std::pair<int, int>>& 
   const bool is_part = TargetIsPart();
   const Directions directions = is_part ? Directions::kToTemplate : Directions::kBoth;
   const auto extremities = [&](const MatchingBody& body) {
-    return static_cast<int>((is_part ? body.inner_extremities : body.extremities).size());
+    return static_cast<int>((is_part ? body.part_extremities : body.extremities).size());
   };
   matching.template_extremities = extremities(first);
   matching.target_extremities = extremities(second);

@@ -106,7 +106,7 @@ class SurfaceMatcher {
   ~SurfaceMatcher();
 
   /// Whether the target is taken for a part of what the template is: it is open, which the template
-  /// is not, and has two extremities at least away from its border.
+  /// is not, and has two extremities at least.
   bool TargetIsPart() const;
 
   /// `given` are pairs of vertices that are known to correspond; a single one may settle what is
