@@ -1,6 +1,7 @@
 #include <shapespace/matching/detail/matching_body.h>
 
 #include <algorithm>
+#include <iterator>
 
 namespace shapespace::internal {
 namespace {
@@ -49,15 +50,14 @@ MatchingBody::MatchingBody(const std::string& name, const Connectivity& connecti
   all_extremities = extremities;
   for (const int v : MinorExtremities(all)) all_extremities.push_back(v);
   from_border = graph.FromAny(border.vertices);
-  all.erase(
-      std::remove_if(all.begin(), all.end(),
-                     [&](const Extremity& end) { return from_border(end.vertex) <= kCutOff; }),
-      all.end());
+  const auto on_border = [&](int v) { return from_border(v) <= kCutOff; };
+  all.erase(std::remove_if(all.begin(), all.end(),
+                           [&](const Extremity& end) { return on_border(end.vertex); }),
+            all.end());
   inner_extremities = PrincipalExtremities(all);
   part_extremities = inner_extremities;
-  for (const int v : extremities) {
-    if (from_border(v) <= kCutOff) part_extremities.push_back(v);
-  }
+  std::copy_if(extremities.begin(), extremities.end(), std::back_inserter(part_extremities),
+               on_border);
 }
 
 Eigen::MatrixXf MatchingBody::Smooth(const Eigen::MatrixXf& field,

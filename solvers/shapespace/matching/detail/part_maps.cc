@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <set>
 #include <utility>
 
 #include <shapespace/base/parallel.h>
@@ -70,6 +69,25 @@ VertexPairs PairsOf(const MatchingBody& on_template, const MatchingBody& on_targ
   return pairs;
 }
 
+// For each set of pairs the scale under which it costs least.
+using BestOfScales = std::map<std::vector<std::pair<int, int>>, ScaledAssignment>;
+
+void Keep(const Assignment& assignment, double scale, BestOfScales* best) {
+  const auto [found, is_new] = best->try_emplace(assignment.pairs);
+  if (!is_new && found->second.assignment.cost <= assignment.cost) return;
+  found->second = {assignment, scale};
+}
+
+std::vector<ScaledAssignment> Cheapest(const BestOfScales& best, int count) {
+  std::vector<ScaledAssignment> all;
+  for (const auto& entry : best) all.push_back(entry.second);
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
+    return a.assignment.cost < b.assignment.cost;
+  });
+  all.resize(std::min<size_t>(all.size(), count));
+  return all;
+}
+
 }  // namespace
 
 std::vector<ScaledAssignment> AssignAtScales(const MatchingBody& on_template,
@@ -82,37 +100,29 @@ std::vector<ScaledAssignment> AssignAtScales(const MatchingBody& on_template,
       template_landmarks.Between(static_cast<int>(first.size()), first.size());
   const auto inner = static_cast<int>(on_target.inner_extremities.size()),
              all = static_cast<int>(on_target.part_extremities.size());
-  const auto is_on_border = [&](const auto& pair) { return pair.second >= inner; };
-  std::vector<ScaledAssignment> result;
-  for (const int ends : std::set<int>{inner, all}) {
-    const Eigen::MatrixXd after = target_landmarks.Between(ends, all);
-    if (after.cols() < kFewestOfAPart) continue;
-    std::map<std::vector<std::pair<int, int>>, ScaledAssignment> best;
-    for (int k = 0; k < kScales; ++k) {
-      const double scale = std::sqrt(kLeastPart + (1 - kLeastPart) * k / (kScales - 1));
-      // Of an end on the border heat tells nothing.
-      Eigen::MatrixXd unlike = difference.leftCols(ends);
-      unlike.leftCols(inner) += HeatDifference(on_template.spectrum, first, on_target.spectrum,
-                                               on_target.inner_extremities, kLocalTime, scale);
-      for (const Assignment& assignment :
-           AssignExtremities({before, scale * after, unlike}, count, kFewestOfAPart).best) {
-        if (ends > inner &&
-            std::none_of(assignment.pairs.begin(), assignment.pairs.end(), is_on_border)) {
-          continue;
-        }
-        const auto [found, is_new] = best.try_emplace(assignment.pairs);
-        if (!is_new && found->second.assignment.cost <= assignment.cost) continue;
-        found->second = {assignment, scale};
-      }
+  BestOfScales of_inner, on_border;
+  for (int k = 0; k < kScales; ++k) {
+    const double scale = std::sqrt(kLeastPart + (1 - kLeastPart) * k / (kScales - 1));
+    // Of an end on the border heat tells nothing.
+    Eigen::MatrixXd unlike = difference;
+    unlike.leftCols(inner) += HeatDifference(on_template.spectrum, first, on_target.spectrum,
+                                             on_target.inner_extremities, kLocalTime, scale);
+    const auto best_of = [&](int ends) {
+      const Eigen::MatrixXd after = scale * target_landmarks.Between(ends, all);
+      if (after.cols() < kFewestOfAPart) return std::vector<Assignment>();
+      return AssignExtremities({before, after, unlike.leftCols(ends)}, count, kFewestOfAPart).best;
+    };
+    for (const Assignment& assignment : best_of(inner)) Keep(assignment, scale, &of_inner);
+    if (all == inner) continue;
+    for (const Assignment& assignment : best_of(all)) {
+      const bool has_border = std::any_of(assignment.pairs.begin(), assignment.pairs.end(),
+                                          [&](const auto& pair) { return pair.second >= inner; });
+      if (has_border) Keep(assignment, scale, &on_border);
     }
-    std::vector<ScaledAssignment> own;
-    for (auto& entry : best) own.push_back(std::move(entry.second));
-    std::stable_sort(own.begin(), own.end(), [](const auto& a, const auto& b) {
-      return a.assignment.cost < b.assignment.cost;
-    });
-    own.resize(std::min<size_t>(own.size(), count));
-    result.insert(result.end(), own.begin(), own.end());
   }
+  std::vector<ScaledAssignment> result = Cheapest(of_inner, count);
+  const std::vector<ScaledAssignment> others = Cheapest(on_border, count);
+  result.insert(result.end(), others.begin(), others.end());
   return result;
 }
 
